@@ -31,5 +31,5 @@ Promise.race([listEarly(store), late]).then(() => {
   document.head.append(byId("later-modules").content);
   return import("./editor.js");
 }).then(({ start }) => start(store), (error) => {
-  report(new Error(`Part of the page could not be loaded: ${error.message}. Reload it.`));
+  report(new Error(`Part of the page could not be loaded: ${error.message}. Reload the page.`));
 });

@@ -67,7 +67,9 @@ function panelsAfterPaint(page) {
   const escapes = {};
   const paintedOrHidden = Promise.race([painted(), new Promise((resume) => { setTimeout(resume, LONGEST_PAINT_MS); })]);
   Promise.all([import("./panels.js"), paintedOrHidden]).then(([{ mountPanels }]) => Object.assign(escapes, mountPanels(page)))
-    .catch((error) => report(new Error(`Part of the page could not be built: ${error.message}. Reload it.`)));
+    .catch(({ message }) => {
+      report(new Error(`Part of the page could not be built: ${message}. Reload the page.`));
+    });
   return escapes;
 }
 

@@ -25,7 +25,9 @@ function mountFastest(store, gaitTools) {
     await selectGait(store, id);
     openStep("design");
   });
-  gaitTools.addNew({ text: "Fastest gait…", help: "For the robot's clock: each choice with its speed in mm/s, and a search over foot orders", act: () => open() });
+  const help = "Make a gait that is as fast as the robot's firmware allows. "
+    + "Each choice shows its speed in mm/s";
+  gaitTools.addNew({ text: "Fastest gait…", help, act: () => open() });
   store.watch(({ fastestWanted }) => [fastestWanted], ({ fastestWanted }) => {
     if (!fastestWanted) return;
     store.set({ fastestWanted: null });

@@ -24,9 +24,11 @@ async function refusal(response) {
     if (body.error) return new ApiError(body.error, response.status, body.where ?? null);
     if (body.detail) return new ApiError(typeof body.detail === "string" ? body.detail : JSON.stringify(body.detail), response.status);
   } catch {
-    return new ApiError(`The studio gave no readable answer (status ${response.status}). Try again.`, response.status);
+    const unreadable = `The page cannot read the studio's answer (status ${response.status}). Try again.`;
+    return new ApiError(unreadable, response.status);
   }
-  return new ApiError(`The studio refused this and gave no reason (status ${response.status}).`, response.status);
+  const unexplained = `The studio refused the request and gave no reason (status ${response.status}).`;
+  return new ApiError(unexplained, response.status);
 }
 
 async function answer(method, path, body, signal) {

@@ -10,9 +10,9 @@ function refusal({ status, responseText }) {
     const { error, where = null } = JSON.parse(responseText);
     if (error) return new ApiError(error, status, where);
   } catch {
-    return new ApiError(`The studio gave no readable answer (status ${status}). Try again.`, status);
+    return new ApiError(`The page cannot read the studio's answer (status ${status}). Try again.`, status);
   }
-  return new ApiError(`The studio refused this and gave no reason (status ${status}).`, status);
+  return new ApiError(`The studio refused the request and gave no reason (status ${status}).`, status);
 }
 
 /**
@@ -29,7 +29,8 @@ function sendFile(path, file, { signal, progress = () => {} } = {}) {
     for (const [name, value] of Object.entries({ ...authorHeaders(), "Content-Type": file.type || "application/octet-stream" })) sending.setRequestHeader(name, value);
     sending.upload.addEventListener("progress", ({ loaded, total }) => progress(total ? loaded / total : 0));
     sending.addEventListener("load", () => (sending.status < 300 ? resolve(JSON.parse(sending.responseText)) : reject(refusal(sending))));
-    sending.addEventListener("error", () => reject(new ApiError("The file did not arrive: the studio does not answer, or closed the connection.", 0)));
+    const lost = "The upload failed. The studio does not answer, or it closed the connection.";
+    sending.addEventListener("error", () => reject(new ApiError(lost, 0)));
     sending.addEventListener("abort", () => resolve(null));
     signal?.addEventListener("abort", () => sending.abort());
     sending.send(file);

@@ -14,6 +14,9 @@ const feetThat = (row, stands) => (row ?? []).flatMap((isDown, foot) => (isDown 
 /** "1", "1 and 3" or "1, 2 and 4": feet counted from 1. */
 const numbers = (feet) => feet.map((foot) => foot + 1).join(", ").replace(/, ([^,]*)$/, " and $1");
 
+/** "foot 1" or "feet 1 and 3". */
+const named = (feet) => `${feet.length === 1 ? "foot" : "feet"} ${numbers(feet)}`;
+
 /** The feet whose cells miss a limit at a sample: of balance those in the air, else those that are named; or all that stand. */
 function offenders({ family, feet }, row) {
   const inAir = feetThat(row, false);
@@ -53,17 +56,17 @@ const WORDS = {
   friction: () => "too little grip",
   motor_speed: (missing) => `${footOf(missing)}: motor too fast`,
   motor_acceleration: (missing) => `${footOf(missing)}: motor speeds up too fast`,
-  shoe_distance: ({ feet }) => `feet ${numbers([...feet].sort((a, b) => a - b))} too close`,
-  boundary: () => "start or goal missed",
+  shoe_distance: ({ feet }) => `${named([...feet].sort((a, b) => a - b))} too close`,
+  boundary: () => "start or goal not reached",
 };
 
 /** Why an entry is one, in a few words. */
 export function wordsOf(missing, contact) {
-  if (!BALANCE.has(missing.family)) return WORDS[missing.family]?.(missing) ?? "a limit is missed";
+  if (!BALANCE.has(missing.family)) return WORDS[missing.family]?.(missing) ?? "a limit is not kept";
   const row = contact[missing.first];
   const inAir = feetThat(row, false);
   const isLine = inAir.length > 0 && feetThat(row, true).length < LEAST_STANDING;
-  return isLine ? `${numbers(inAir)} in the air` : `margin ${size(missing)} short`;
+  return isLine ? `${named(inAir)} in the air` : `margin ${size(missing)} short`;
 }
 
 /** What such words begin with, where there is no room for all: "foot 1" of "foot 1: rise 3.1 mm short". */

@@ -21,10 +21,17 @@ const swingCount = (row) => row.split("1").filter(Boolean).length;
 const seconds = (document, samples) => `${(Math.max(0, samples - 1) * document.timeline.sample_time).toFixed(1)} s`;
 
 /** What of a region does not fit behind a sample, in words; null where all of it does. */
-const clippedText = (over) => (over > 0 ? `The last ${counted(over, "sample")} would lie after the end and are left out.` : null);
+const clippedText = (over) => {
+  if (over <= 0) return null;
+  const what = over === 1 ? "The last sample does" : `The last ${over} samples do`;
+  return `${what} not fit into the timeline and will be left out.`;
+};
 
-const lengthNote = (before, after) =>
-  `The timeline goes from ${sampleCount(before)} to ${counted(sampleCount(after), "sample")} (${seconds(after, sampleCount(after))}).`;
+const lengthNote = (before, after) => {
+  const [old, now] = [sampleCount(before), sampleCount(after)];
+  return `The length of the timeline changes from ${old} to ${counted(now, "sample")} `
+    + `(${seconds(after, now)}).`;
+};
 
 /** Where a mirrored order draws the mirrored timeline, the order goes along. */
 function mirroredWhole(document, region, mirror) {
@@ -39,17 +46,22 @@ function mirroredWhole(document, region, mirror) {
 
 function mirrorNote(region, mirror) {
   const pairs = mirroredFeet(region, mirror).filter((foot) => foot < mirror[foot]).map((foot) => `${foot + 1} and ${mirror[foot] + 1}`);
-  return `Feet ${pairs.join(", ")} change places.`;
+  return `These feet exchange their cells: ${pairs.join(", ")}.`;
 }
 
 function mirror({ document, region, mirror: map, words }) {
-  if (!map) return { reason: "The feet have no mirror image about this heading: it lies neither on a leg nor halfway between two." };
+  if (!map) {
+    return { reason: "The gait cannot be mirrored. "
+      + "Its heading must lie along a leg or halfway between two legs." };
+  }
   return { apply: (now) => mirroredWhole(now, region, map), label: `Mirror ${words}`, note: mirrorNote(region, map) };
 }
 
 function vanishing(before, after) {
   const foot = before.timeline.feet.findIndex((row, index) => swingCount(after.timeline.feet[index]) < swingCount(row));
-  return foot < 0 ? null : `A swing of foot ${foot + 1} would vanish or run into another: take more samples.`;
+  return foot < 0 ? null
+    : `A swing of foot ${foot + 1} would disappear or touch the next swing. `
+      + "Enter a larger number of samples.";
 }
 
 function stretch({ document, region, words, amount }) {
@@ -67,13 +79,20 @@ function stretch({ document, region, words, amount }) {
 
 function repeatWhole({ document, amount }) {
   const iterations = document.iterations * amount;
-  if (iterations > MOST_ITERATIONS) return { reason: `${iterations} iterations are more than ${MOST_ITERATIONS}: repeat less often.` };
+  if (iterations > MOST_ITERATIONS) {
+    return { reason: `The gait would have ${iterations} iterations. `
+      + `Enter a smaller number: ${MOST_ITERATIONS} iterations are possible.` };
+  }
   const feet = document.segment_table ? null : isDrawn(document) ? drawnRows({ ...document, iterations }) : repeatedRows(document, iterations);
   const shown = feet && { ...document, iterations, timeline: { ...document.timeline, feet, locked: feet.map((row) => "0".repeat(row.length)) } };
-  if (!feet && !document.segment_table) return { reason: `The ${document.iterations} iterations are not equally long: select the samples that are to be repeated.` };
+  if (!feet && !document.segment_table) {
+    return { reason: `The ${document.iterations} iterations have different lengths. `
+      + "Select the samples to repeat." };
+  }
   return {
     apply: (now) => ({ ...now, iterations }), document: shown, label: `Iterations to ${iterations}`, drawing: false, selection: null,
-    note: shown ? `${counted(iterations, "iteration")}. ${lengthNote(document, shown)}` : `${counted(iterations, "iteration")} of the segment table.`,
+    note: shown ? `${counted(iterations, "iteration")}. ${lengthNote(document, shown)}`
+      : `The segment table will have ${counted(iterations, "iteration")}.`,
   };
 }
 
@@ -94,19 +113,23 @@ function rotate({ document }) {
   const shown = heldTurned({ ...document, direction, timeline: { ...document.timeline, feet } }, by);
   return {
     apply: (now) => ({ ...now, direction }), document: shown, label: `Direction to ${direction}`, drawing: false,
-    note: `Direction ${direction} instead of ${document.direction}: each foot's steps go to the next foot.`,
+    note: `The direction changes from ${document.direction} to ${direction}. `
+      + "Each foot gets the cells of another foot.",
   };
 }
 
 function duplicate({ document, region, words }) {
   const [, last] = region.samples;
   const rest = sampleCount(document) - 1 - last;
-  if (rest <= 0) return { reason: "There is no room after it: the selection ends with the timeline. Repeat makes the timeline longer." };
+  if (rest <= 0) {
+    return { reason: "The selection ends at the end of the timeline, so a copy does not fit. "
+      + "Repeat makes the timeline longer." };
+  }
   const apply = (now) => withBlock(now, [region.feet[0], last + 1], blockOf(now, region));
   const clipped = clippedText(lengthOf(region) - rest);
   return {
     apply, clipped, label: `Duplicate ${words}`, selection: { ...region, samples: [last + 1, Math.min(last + lengthOf(region), sampleCount(document) - 1)] },
-    note: clipped ?? `A copy from sample ${last + 2} on.`,
+    note: clipped ?? `The copy starts at sample ${last + 2}.`,
   };
 }
 
@@ -114,12 +137,15 @@ function insert({ document, region, amount }) {
   const after = inserted(document, region, amount);
   return {
     apply: (now) => inserted(now, region, amount), label: `Insert ${counted(amount, "sample")} before sample ${region.samples[0] + 1}`,
-    note: `Every foot goes on as before them. ${lengthNote(document, after)}`, selection: { ...region, samples: [region.samples[0], region.samples[0] + amount - 1] },
+    note: `In the new samples each foot keeps its stance or swing. ${lengthNote(document, after)}`,
+    selection: { ...region, samples: [region.samples[0], region.samples[0] + amount - 1] },
   };
 }
 
 function remove({ document, region }) {
-  if (sampleCount(document) - lengthOf(region) < 2) return { reason: "Two samples at least must stay: select fewer." };
+  if (sampleCount(document) - lengthOf(region) < 2) {
+    return { reason: "The timeline must keep at least two samples. Select fewer samples." };
+  }
   const after = removed(document, region);
   const range = lengthOf(region) === 1 ? `sample ${region.samples[0] + 1}` : `samples ${region.samples[0] + 1}–${region.samples[1] + 1}`;
   return { apply: (now) => removed(now, region), label: `Remove ${range}`, note: lengthNote(document, after), selection: null };
@@ -132,34 +158,61 @@ const locking = (locks) => ({ region, words }) => ({ apply: (now) => withLocks(n
  * on samples of all feet, which never mean the whole timeline by themselves.
  */
 export const OPERATIONS = {
-  mirror: { name: "Mirror", help: "Mirror left–right: each foot changes places with the one on the other side of the heading", outcome: mirror },
+  mirror: {
+    name: "Mirror", outcome: mirror,
+    help: "Each foot exchanges its cells with the foot on the other side of the heading",
+  },
   stretch: {
-    name: "Stretch", help: "Stretch or shrink over another number of samples", outcome: stretch,
+    name: "Stretch", help: "Make the selection, or the whole timeline, longer or shorter", outcome: stretch,
     amount: { name: "New length", unit: "samples", least: 1, most: MOST_SAMPLES, factor: true, start: ({ document, region }) => lengthOf(region) + (isWhole(document, region) ? lengthOf(region) : 1) },
   },
-  reverse: { name: "Reverse in time", help: "The last sample becomes the first", outcome: ({ region, words }) => ({ apply: (now) => (isWhole(now, region) ? heldReversed(reversed(now, region)) : reversed(now, region)), label: `Reverse ${words}` }) },
+  reverse: {
+    name: "Reverse in time", help: "Reverse the order of the samples: the last sample becomes the first",
+    outcome: ({ region, words }) => ({
+      apply: (now) => (isWhole(now, region) ? heldReversed(reversed(now, region)) : reversed(now, region)),
+      label: `Reverse ${words}`,
+    }),
+  },
   shift: {
-    name: "Shift phase", help: "Move later in time; what leaves at the end enters at the beginning", amount: { name: "Later by", unit: "samples", least: -MOST_SAMPLES, most: MOST_SAMPLES, start: () => 1 },
+    name: "Shift phase", help: "Move the cells later in time. "
+      + "Cells that leave at the end come back at the beginning",
+    amount: { name: "Later by", unit: "samples", least: -MOST_SAMPLES, most: MOST_SAMPLES, start: () => 1 },
     outcome: ({ region, words, amount }) => ({ apply: (now) => shifted(now, region, amount), label: `Shift ${words} by ${amount > 0 ? "+" : "−"}${Math.abs(amount)}` }),
   },
   repeat: {
-    name: "Repeat", help: "The whole: more iterations. A selection: its samples of all feet again, and what follows moves along", outcome: repeat,
+    name: "Repeat", outcome: repeat,
+    help: "Repeat the selected samples of all feet and move the later samples. "
+      + "Without a selection: more iterations",
     amount: { name: "Times", unit: "", least: 2, most: MOST_ITERATIONS, start: () => 2 },
   },
   rotate: { name: "Rotate by 90°", help: "Turn the direction of the whole gait by 90°", outcome: rotate },
-  duplicate: { name: "Duplicate", help: "A copy right behind the selection, written over what is there", outcome: duplicate },
-  stance: { name: "To stance", help: "Every foot stands", outcome: ({ region, words }) => ({ apply: (now) => toStance(now, region), label: `${words} to stance` }) },
+  duplicate: {
+    name: "Duplicate", help: "Copy the selection to the samples right after the selection. "
+      + "The copy replaces the cells there",
+    outcome: duplicate,
+  },
+  stance: {
+    name: "To stance", help: "All selected cells become stance",
+    outcome: ({ region, words }) => ({ apply: (now) => toStance(now, region), label: `${words} to stance` }),
+  },
   lock: { name: "Lock", help: "Locked cells keep their value", outcome: locking(true) },
-  unlock: { name: "Unlock", help: "The cells can be changed again", outcome: locking(false) },
+  unlock: { name: "Unlock", help: "Let the cells change again", outcome: locking(false) },
   insert: {
-    name: "Insert samples", help: "Samples of all feet before the selection, or before the focused cell; what follows moves along", outcome: insert, columns: true,
+    name: "Insert samples", outcome: insert, columns: true,
+    help: "Insert samples for all feet before the selection or the focused cell. "
+      + "Later samples move to the right",
     amount: { name: "How many", unit: "samples", least: 1, most: 500, start: () => 1 },
   },
-  remove: { name: "Remove samples", help: "Take the selection's samples, or the focused one, away from all feet; what follows moves up", outcome: remove, columns: true },
+  remove: {
+    name: "Remove samples", outcome: remove, columns: true,
+    help: "Remove the selected samples, or the focused sample, of all feet. Later samples move to the left",
+  },
 };
 
-const refusalOf = (before, after) =>
-  (sampleCount(after) > MOST_SAMPLES ? `${sampleCount(after)} samples are more than ${MOST_SAMPLES}, the most that a timeline has.` : heldBack(before, after));
+const refusalOf = (before, after) => (sampleCount(after) > MOST_SAMPLES
+  ? `The timeline would have ${sampleCount(after)} samples. `
+    + `The most that a timeline can have is ${MOST_SAMPLES}.`
+  : heldBack(before, after));
 
 /**
  * What an operation would make of a document.

@@ -52,14 +52,16 @@ function cellError(sheet, row, foot) {
   const segment = sheet.words.segments[name];
   if (!segment) return `there is no segment “${name}”.`;
   const before = placeBefore(sheet, row, foot);
-  return before && before !== segment.start ? `“${name}” starts at ${segment.start}, but the foot is at ${before} then.` : null;
+  return before && before !== segment.start
+    ? `“${name}” starts at ${segment.start}, but the segment before it ends at ${before}.` : null;
 }
 
 /** Why a foot's iterations cannot follow one another: `{row, sentence}`, or null. */
 function chainError(sheet, foot) {
   const last = (sheet.rows.length > sheet.count ? sheet.rows.length : sheet.to) - 1;
   const [after, goal] = [placeAfter(sheet, last, foot), sheet.words.segments[sheet.rows[sheet.from - 1]?.[foot]]?.start];
-  return after === goal ? null : { row: last, sentence: `ends at ${after}, but the next iteration starts at ${goal}.` };
+  const sentence = `the segment ends at ${after}, but the next iteration starts at ${goal}.`;
+  return after === goal ? null : { row: last, sentence };
 }
 
 /**

@@ -44,5 +44,6 @@ export function restarted(document, indices, restarts) {
   const one = ({ restarts: _, ...part }) => (restarts ? { ...part, restarts } : part);
   const apply = withParts((parts) => parts.map((part, at) => (indices.includes(at) ? one(part) : part)));
   const names = indices.map((index) => document.sequence[index].gait.name).join(", ");
-  return { apply, label: restarts ? `Start ${names} from rest each time` : `Run ${names} without a pause` };
+  const label = restarts ? `Start each repetition of ${names} from rest` : `Run ${names} without a pause`;
+  return { apply, label };
 }

@@ -1,5 +1,7 @@
 /** Moving a swing of the timeline, or one end of it: what a drag leads to, held where it may not go on. */
 
+import { counted } from "../lib/format.js";
+
 /** The swing of a row around a sample, or null in stance. */
 export function swingAt(row, sample) {
   if (row[sample] !== "0") return null;
@@ -29,12 +31,17 @@ export function differing(from, to) {
 /** Why a swing may not come to lie there; "" where only the border of the timeline is in the way, null where it may. */
 function obstacle({ row, locked, foot }, from, to) {
   if (to.first < 0 || to.last >= row.length) return "";
-  if (to.first > to.last) return `The swing of foot ${foot + 1} keeps at least one sample. Click it for stance.`;
+  if (to.first > to.last) {
+    return `The swing of foot ${foot + 1} must keep at least one sample. `
+      + "To remove the swing, click its cell.";
+  }
   const { toSwing, toStance } = differing(from, to);
   const fixed = [...toSwing, ...toStance].find((sample) => locked?.[sample] === "1");
   if (fixed !== undefined) return `Foot ${foot + 1}, sample ${fixed + 1} is locked.`;
   const next = [to.first - 1, ...toSwing, to.last + 1].find((sample) => row[sample] === "0" && (sample < from.first || sample > from.last));
-  return next === undefined ? null : `Foot ${foot + 1} has another swing at sample ${next + 1}; one sample of stance stays between them.`;
+  return next === undefined ? null
+    : `Foot ${foot + 1} has another swing at sample ${next + 1}. `
+      + "One sample of stance must stay between the two swings.";
 }
 
 /**
@@ -56,6 +63,9 @@ export function moved(line, from, part, by) {
 
 /** Name of the undo entry. */
 export function movedLabel(foot, part, to, by) {
-  if (part === "middle") return `Foot ${foot + 1}: swing moved by ${by > 0 ? "+" : "−"}${Math.abs(by)}`;
-  return `Foot ${foot + 1}: swing to sample${to.first === to.last ? ` ${to.first + 1}` : `s ${to.first + 1}–${to.last + 1}`}`;
+  if (part === "middle") {
+    return `Foot ${foot + 1}: swing moved by ${by > 0 ? "+" : "−"}${counted(Math.abs(by), "sample")}`;
+  }
+  const samples = to.first === to.last ? `sample ${to.first + 1}` : `samples ${to.first + 1}–${to.last + 1}`;
+  return `Foot ${foot + 1}: swing at ${samples}`;
 }

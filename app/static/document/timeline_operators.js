@@ -87,11 +87,13 @@ export function heldBack(before, after) {
   const [old, now] = [before.timeline, after.timeline];
   if (old.feet[0].length !== now.feet[0].length) {
     const cell = firstLocked(before);
-    return cell && `Foot ${cell[0] + 1}, sample ${cell[1] + 1} is locked: unlock all cells before you change the number of samples.`;
+    return cell && `Foot ${cell[0] + 1}, sample ${cell[1] + 1} is locked. `
+      + "Unlock all cells before you change the number of samples.";
   }
   for (const [foot, row] of (old.locked ?? []).entries()) {
     const sample = [...row].findIndex((lock, index) => lock === "1" && now.locked?.[foot]?.[index] === "1" && old.feet[foot][index] !== now.feet[foot][index]);
-    if (sample >= 0) return `Foot ${foot + 1}, sample ${sample + 1} is locked and would change: unlock it first.`;
+    if (sample >= 0) return `Foot ${foot + 1}, sample ${sample + 1} is locked, but would change. `
+      + "Unlock this cell first.";
   }
   return JSON.stringify(before) === JSON.stringify(after) ? "Nothing would change." : null;
 }

@@ -9,7 +9,8 @@ import { openView } from "../timeline/views.js";
 
 /** A drawn gait of the program, for which remedies are looked for. */
 const DRAWN = "walk";
-const REAL = "This studio drives a real robot. Start one with --robot emulator to try this without it.";
+const REAL = "This studio drives a real robot. "
+  + "To try without the real robot, start the studio with --robot emulator.";
 const STEP_LABEL = /^(Step|Goal) to /;
 
 /** Whether a gait is drawn: not for the robot's clock, nor made of segments or parts. Only such gaits get remedies. */
@@ -50,22 +51,26 @@ function nextButton() {
 export const ACTS = [
   {
     key: "play", title: "Play the walk", place: () => byId("play"),
-    sentence: () => "Press Play under the 3D preview, or the space bar.",
+    sentence: () => "Press the button Play below the 3D preview, or press the space bar.",
   },
   {
     key: "step", title: "Drag the step", place: stepField,
-    sentence: () => "Drag the word Step to the left or to the right. Plan and robot follow while you drag.",
+    sentence: () => "Drag the word Step to the left or to the right. "
+      + "The plan and the robot in 3D change while you drag.",
   },
   {
-    key: "remedy", title: "Ask for too much, then use a remedy", place: remedyPlace,
+    key: "remedy", title: "Ask for too long a step, then use a remedy", place: remedyPlace,
     sentence: ({ view }) => (view && isDrawn(view.document)
-      ? "Set Step to 30 mm. No motion is possible with it. Press “Use this” beside one of the remedies."
-      : "Only drawn gaits get remedies: first choose Walk 10 mm under Examples. Then set its Step to 30 mm."),
+      ? "Set Step to 30 mm. No motion is possible with this step. "
+        + "The page then shows remedies: changes that make a motion possible. "
+        + "Press “Use this” beside one remedy."
+      : "In the list of gaits, under Examples, choose Walk 10 mm. Then set Step to 30 mm."),
   },
   {
-    key: "send", title: "Send it to the emulated robot", place: nextButton,
+    key: "send", title: "Send the gait to the emulated robot", place: nextButton,
     sentence: ({ robot }) => (robot?.emulated === false ? REAL
-      : "The button at the foot of this panel is the next act: Simulate, Check, Approve, Connect, Arm, Send."),
+      : "Press the button at the bottom of this panel, again and again. "
+        + "The button always does the next action: Simulate, Check, Approve, Connect, Arm, Send."),
   },
 ];
 

@@ -12,7 +12,8 @@ import { planIsOn } from "../state/store.js";
 import { ACTS, showPlace, watchActs } from "./acts.js";
 
 const KEY = "first-steps";
-const ALL_DONE = "You have seen the whole way from a gait to the robot. Help (?) shows this card again.";
+const ALL_DONE = "You have tried every step from a gait to the robot. "
+  + "To see this card again, press ? and choose First steps.";
 
 /** Whether nothing was made in this data folder yet: no gait, no edit, no job and no run. */
 async function isFirstRun({ gaits, jobs }) {
@@ -71,7 +72,8 @@ export function mountFirstSteps(store, playback) {
   const count = h("span", { class: "quiet", role: "status" });
   const end = h("p", { class: "act-body", text: ALL_DONE });
   const close = h("button", {
-    class: "plain icon-only", type: "button", "aria-label": "Close first steps", title: "Close. Help (?) shows it again",
+    class: "plain icon-only", type: "button", "aria-label": "Close first steps",
+    title: "Close this card. To see the card again, press ? and choose First steps",
   }, icon("close"));
   const items = new Map(ACTS.map((act) => [act.key, actItem(act, { store, opened: open })]));
   card.append(
@@ -106,7 +108,7 @@ export function mountFirstSteps(store, playback) {
     if (opened === null || opened === key) opened = firstToDo();
     show();
   });
-  addHelp({ text: "First steps", help: "Four things to try on the way from a gait to the robot", act: begin });
+  addHelp({ text: "First steps", help: "Show four exercises: play, change, repair, send", act: begin });
 
   opened = firstToDo();
   store.watch(({ view, robot }) => [view?.document, robot?.emulated, planIsOn(robot)], show);

@@ -32,5 +32,5 @@ export function wholeNumber(input, name, { min, max, unit = "" }) {
   if (input.validity.badInput || text === "") return { sentence: `${name} needs ${range}.` };
   const value = Number(text);
   if (Number.isInteger(value) && value >= min && value <= max) return { value };
-  return { sentence: `${name} is ${value}${unit && ` ${unit}`}; it must be ${range}.` };
+  return { sentence: `${name} is ${value}${unit && ` ${unit}`}, but must be ${range}.` };
 }

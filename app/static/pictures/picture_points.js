@@ -90,7 +90,10 @@ export function picturePoints(picture, { add, move, remove, chosen }) {
   }
 
   function handle(index) {
-    const element = h("button", { type: "button", class: "video-point", title: "Drag, or arrow keys: 1 px, with Shift 10, with Alt 0.1; Delete removes it", data: { arrows: "", keys: "" } }, h("span", { text: String(index + 1) }));
+    const title = "Drag the point. Delete removes the point. "
+      + "The arrow keys move the point by 1 px, with Shift by 10 px, with Alt by 0.1 px";
+    const element = h("button", { type: "button", class: "video-point", title, data: { arrows: "", keys: "" } },
+      h("span", { text: String(index + 1) }));
     dragging(element, picture, lens, { moving: (place) => goTo(index, place, false), moved: () => move(index, places[index], true) });
     element.addEventListener("keydown", (event) => pressed(event, { nudge: (by) => nudge(index, by), remove: () => remove(index) }));
     element.addEventListener("focus", () => chosen(index));

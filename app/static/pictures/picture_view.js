@@ -84,9 +84,10 @@ function mountKeys(frame, { closer, further, fit, pan }) {
 
 function zoomButtons({ zoom, fit, middle }) {
   const button = (text, name, act) => h("button", { type: "button", class: "icon-only", "aria-label": name, title: name, text, on: { click: act } });
-  const fitting = button("", "Fit the picture", fit);
+  const fitting = button("", "Show the whole picture", fit);
   fitting.append(icon("fit"));
-  return h("div", { class: "video-zoom", role: "group", "aria-label": "Zoom" }, button("−", "Further", () => zoom(1 / STEP, middle())), button("+", "Closer", () => zoom(STEP, middle())), fitting);
+  const [out, closer] = [button("−", "Zoom out", () => zoom(1 / STEP, middle())), button("+", "Zoom in", () => zoom(STEP, middle()))];
+  return h("div", { class: "video-zoom", role: "group", "aria-label": "Zoom" }, out, closer, fitting);
 }
 
 const newImage = () => Object.assign(new Image(), { className: "video-image", alt: "", draggable: false });
@@ -104,7 +105,7 @@ function mountImage(replace) {
       await next.decode();
     } catch {
       forget();
-      throw new Error("The picture cannot be drawn.");
+      throw new Error("The picture cannot be shown.");
     }
     if (number < requested) {
       forget();
@@ -150,7 +151,8 @@ export function pictureView(name) {
   const panned = doing((dx, dy) => move(dx, dy, bounds(), size));
   const middle = () => ({ x: bounds().width / 2, y: bounds().height / 2 });
   const frame = h("div", { class: "video-frame", role: "group", tabindex: "0", "aria-label": name, data: { keys: "", arrows: "" },
-    "aria-description": "Arrow keys move the picture, plus and minus zoom, F fits it" }, image, overlay, layer, zoomButtons({ zoom: zoomed, fit: fitted, middle }));
+    "aria-description": "Arrow keys move the picture. Plus and minus zoom. F shows the whole picture" },
+  image, overlay, layer, zoomButtons({ zoom: zoomed, fit: fitted, middle }));
 
   mountPointer(frame, { pan: panned, zoom: zoomed, hover: (at) => listeners.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),
     click: (at) => { if (isInside(toPlace(at))) listeners.click.forEach((act) => act(toPlace(at))); } });

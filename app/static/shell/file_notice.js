@@ -5,6 +5,10 @@ import { byId, h } from "../lib/dom.js";
 import { attempt } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
 
+const USE_FILE = "Replace the gait by the content of the file. Undo brings back the gait that you see now";
+const KEEP_MINE = "Write the file again as you last saved it here. "
+  + "The other file is kept in the folder set-aside";
+
 /**
  * Shows over the preview that the shown gait's file was changed, for as long as it is so.
  * @param {object} store
@@ -19,8 +23,8 @@ export function mountFileNotice(store, edits) {
   const sentence = h("p", {});
   const notice = byId("file-notice");
   notice.append(sentence, h("div", { class: "buttons" },
-    h("button", { text: "Use the file", title: "What the file says becomes the gait; yours is kept as a version, and Undo brings it back", on: { click: settle("file") } }),
-    h("button", { text: "Keep mine", title: "Writes what was saved here last; the other file is kept in the folder set-aside", on: { click: settle("mine") } })));
+    h("button", { text: "Use the file", title: USE_FILE, on: { click: settle("file") } }),
+    h("button", { text: "Keep mine", title: KEEP_MINE, on: { click: settle("mine") } })));
   store.watch(({ view, selected }) => [view?.outside, view?.id === selected], ({ view, selected }) => {
     const outside = view?.id === selected ? view.outside : null;
     notice.hidden = !outside;

@@ -10,8 +10,8 @@ const STATES = {
   outside: { mark: "bad", sentence: "" },
   infeasible: { mark: "bad", sentence: "No motion of this gait keeps every limit" },
   edited: { mark: "edited", sentence: "Unsaved changes" },
-  timed: { mark: "good", sentence: "Its time on the robot is known" },
-  unknown: { mark: "unknown", sentence: "Its time on the robot is not known yet" },
+  timed: { mark: "good", sentence: "The time of this gait on the robot is known" },
+  unknown: { mark: "unknown", sentence: "The time of this gait on the robot is not known yet" },
 };
 
 /**
@@ -87,7 +87,7 @@ function titleOf(gait, state) {
   const facts = [robot, orientation, source, kind, orders, edited ? "unsaved changes" : ""];
   const trouble = state === "infeasible" || state === "unknown" ? STATES[state].sentence : "";
   const whole = `${name}: ${facts.filter(Boolean).join(", ")}`;
-  const sentences = [whole, timesText(gait), outside, trouble, "Double click: its name"];
+  const sentences = [whole, timesText(gait), outside, trouble, "Double click to change the name"];
   return sentences.filter(Boolean).join(". ");
 }
 

@@ -92,17 +92,18 @@ function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
   const bringBack = attempt(() => api.restore(id));
   const remove = attempt(async () => {
     await api.remove(id);
-    toast(`${name} is deleted.`, { action: { label: "Bring it back", act: bringBack } });
+    toast(`“${name}” is deleted.`, { action: { label: "Bring it back", act: bringBack } });
   });
   const recover = attempt(async () => {
     const view = await api.recover(id);
     await selectGait(store, id);
     acceptView(store, view);
-    toast(`${view.name} can be shown again. Its unreadable document is kept under Versions; an unreadable file is in the folder set-aside.`);
+    toast(`“${view.name}” can be shown again. Versions keeps the state that could not be shown. `
+      + "A file that could not be read is now in the folder set-aside.");
   });
   openDialog((close) => {
     const then = (act) => () => { close(null); act(); };
-    return dialogFrame(`${name} cannot be shown`, close, then(recover), h("p", { text: problem }),
+    return dialogFrame(`“${name}” cannot be shown`, close, then(recover), h("p", { text: problem }),
       h("div", { class: "buttons" },
         h("button", { type: "button", text: "Close", on: { click: () => close(null) } }),
         wayOut === "original" ? null : h("button", { type: "button", text: "Delete", on: { click: then(remove) } }),
@@ -305,7 +306,12 @@ function found(gait, search) {
  * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string, clear: () => void}}
  */
 function gaitSearch(changed) {
-  const field = h("input", { type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", autocomplete: "off", spellcheck: "false", title: "Type words of the gait's name, robot, orientation or kind, or type its foot order" });
+  const title = "Type a word of the gait's name, robot, orientation or kind. "
+    + "Or type its foot order, such as 1324";
+  const field = h("input", {
+    type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", title,
+    autocomplete: "off", spellcheck: "false",
+  });
   const nothing = h("p", { class: "teach", role: "status", hidden: true });
   const element = h("div", { class: "gait-search" }, field, nothing);
   const clear = () => {
@@ -325,7 +331,8 @@ function gaitSearch(changed) {
     search: () => field.value,
     show(listed, count) {
       nothing.hidden = listed > 0 || !field.value;
-      if (!listed) nothing.textContent = `No gait has “${field.value.trim()}”. Esc shows all ${count}.`;
+      if (!listed) nothing.textContent = `No gait matches “${field.value.trim()}”. `
+        + `Esc shows all ${count} gaits.`;
     },
   };
 }

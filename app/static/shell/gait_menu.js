@@ -14,7 +14,7 @@ const FORMS = [
   ["waypoints", "Waypoints (CSV)"], ["npz", "Arrays (NPZ)"], ["phases", "Phase list (JSON)"], ["svg", "Gait diagram (SVG)"],
   ["png", "Gait diagram (PNG)"], ["html", "3D playback (HTML)"],
 ];
-const KEPT = "This gait comes with the program: it cannot be deleted.";
+const KEPT = "This gait comes with the program, so you cannot delete it.";
 
 async function exportFile(store, edits, form) {
   const { selected } = store.state;
@@ -46,7 +46,7 @@ async function remove(store, show, deletedHere) {
     deletedHere.delete(selected);
     throw error;
   }
-  announceDeleted(`${name} is deleted.`, selected, show);
+  announceDeleted(`“${name}” is deleted.`, selected, show);
   if (store.state.selected !== selected) return;
   const next = store.state.gaits.find(({ id, problem }) => id !== selected && !problem) ?? null;
   await show(store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
@@ -58,7 +58,8 @@ function watchDeleted(store, show, deletedHere) {
   store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected }) => {
     const gone = last && !gaits.some(({ id }) => id === last.id) ? last : null;
     last = gaits.find(({ id }) => id === selected) ?? null;
-    if (gone && !deletedHere.delete(gone.id)) announceDeleted(`${gone.name} was deleted in another tab.`, gone.id, show);
+    if (!gone || deletedHere.delete(gone.id)) return;
+    announceDeleted(`“${gone.name}” was deleted in another tab.`, gone.id, show);
   });
 }
 
@@ -79,16 +80,17 @@ export async function makeGait(store, show, preset = {}) {
 /** The acts on the shown gait. */
 function gaitActs(store, edits, show, deletedHere) {
   const exports = FORMS.map(([form, text]) => ({
-    text, group: "Export as", help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, edits, form)),
+    text, group: "Export as", help: `Download this gait as a file: ${text}`,
+    act: attempt(() => exportFile(store, edits, form)),
   }));
   return [
     {
-      text: "Duplicate", help: "A copy of this gait under another name",
+      text: "Duplicate", help: "Make a copy of this gait under another name",
       act: attempt(() => duplicate(store, show, edits)),
     },
     ...exports,
     {
-      text: "Delete", help: "Delete this saved gait; it can be brought back",
+      text: "Delete", help: "Delete this saved gait. The menu New › Deleted gaits brings a gait back",
       act: attempt(() => remove(store, show, deletedHere)),
       refusal: () => (lineOf(store.state)?.kind === "saved" ? null : KEPT),
     },
@@ -106,20 +108,26 @@ function gaitActs(store, edits, show, deletedHere) {
 export function mountGaitTools(store, edits, show) {
   const deletedHere = new Set();
   watchDeleted(store, show, deletedHere);
-  const news = actionMenu({ name: "New", help: "A new gait, or one from a file", entries: [
-    { text: "New gait…", help: "Robot, foot order, step and phase lengths", act: attempt(() => makeGait(store, show)) },
-    { text: "Import…", help: "Read gaits, trajectories with their companions, waypoints or phase lists", act: () => importFiles(show) },
+  const news = actionMenu({ name: "New", help: "Make a new gait, or read a gait from a file", entries: [
+    {
+      text: "New gait…", help: "Make a gait from a robot, a foot order, a step and a phase length",
+      act: attempt(() => makeGait(store, show)),
+    },
+    {
+      text: "Import…", help: "Read files: gaits, trajectories with their metadata, waypoints or phase lists",
+      act: () => importFiles(show),
+    },
     { text: "Deleted gaits…", help: "Bring back a gait that was deleted", act: attempt(() => bringBack(show)), refusal: noneDeleted },
   ] });
   const acts = actionMenu({
-    name: "Gait", help: "Copy, export, search patterns for or delete the shown gait",
+    name: "Gait", help: "Copy, export or delete the shown gait, or search patterns for this gait",
     entries: gaitActs(store, edits, show, deletedHere),
   });
   byId("gait-menus").append(acts.element, news.element);
   return { addNew: (entry) => news.add(entry, 1), addAct: (entry) => acts.add(entry, -1) };
 }
 
-const NONE = "No gait is deleted: there is nothing to bring back.";
+const NONE = "No gait is deleted, so there is no gait to bring back.";
 
 /** Why the list cannot be shown: null where there is something in it. */
 const noneDeleted = async () => ((await api.deleted()).length ? null : NONE);
@@ -140,7 +148,7 @@ async function bringBack(show) {
     return;
   }
   const id = await openDialog((close) => dialogFrame("Deleted gaits", close, () => close(null),
-    h("p", { class: "quiet", text: "A gait comes back with its unsaved edits, its versions and its undo history." }),
+    h("p", { class: "quiet", text: "A gait that you bring back keeps its edits, versions and undo history." }),
     h("ul", { class: "deleted-gaits", "aria-label": "Deleted gaits" }, ...gaits.map((gait) => row(gait, close))),
     h("div", { class: "buttons" }, h("button", { type: "submit", text: "Close" }))));
   if (!id) return;
@@ -155,7 +163,10 @@ const KINDS = ".json,.csv,application/json,text/csv";
 async function bodies(files) {
   const companions = new Map(files.filter(({ name }) => name.endsWith(COMPANION)).map((file) => [file.name.slice(0, -COMPANION.length), file]));
   const gaits = files.filter(({ name }) => !name.endsWith(COMPANION));
-  if (!gaits.length) throw new Error(`${files[0].name} is a trajectory's companion. Choose its trajectory (CSV) with it.`);
+  if (!gaits.length) {
+    throw new Error(`“${files[0].name}” has only the metadata of a trajectory. `
+      + "Choose also the file of the trajectory (CSV).");
+  }
   return Promise.all(gaits.map(async (file) => {
     const companion = companions.get(file.name.replace(/\.csv$/i, ""));
     if (!companion) return { name: file.name, body: file };

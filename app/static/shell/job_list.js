@@ -36,8 +36,9 @@ function titleOf(job) {
 }
 const spoken = (job) => (isTracking(job) || isSearch(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
 function titleHelp(job) {
-  if (isSearch(job)) return "Open the search with its table";
-  return !isTracking(job) ? "Show its curve and result" : job.result?.trial ? "Open its trial" : "Open its video";
+  if (isSearch(job)) return "Open this search and its table of results";
+  if (!isTracking(job)) return "Show the curve and the result of this job";
+  return job.result?.trial ? "Open the trial of this video" : "Open this video";
 }
 
 function figures(job) {
@@ -94,7 +95,8 @@ function show(part, job, shown) {
 /** Offers the trial of a tracking job if its video's page is not open. */
 function offerTrial(store, job) {
   if (document.querySelector(`[data-tracks="${job.video}"]`)) return;
-  toast(`${titleOf(job)} is done: there is a trial of it.`, { action: { label: "Open the trial", act: () => store.set({ trialWanted: { trial: job.result.trial } }) } });
+  const act = () => store.set({ trialWanted: { trial: job.result.trial } });
+  toast(`${titleOf(job)} is done and has made a new trial.`, { action: { label: "Open the trial", act } });
 }
 
 function announceEnded(store, before, jobs) {

@@ -5,72 +5,84 @@ import { byId, h } from "../lib/dom.js";
 
 const GROUPS = {
   "Everywhere": [
-    ["Space", "Play or pause the preview. Never starts the robot"],
-    ["Esc", "Stop the robot while a run is on; otherwise leave the drag, preview, dialog or selection"],
-    ["← →", "One sample; with Shift ten"],
-    ["Home, End", "First and last sample"],
-    ["L", "Loop the selected samples, or all"],
+    ["Space", "Play or pause the preview. Space never starts the robot"],
+    ["Esc", "During a run: stop the robot. Otherwise: "
+      + "cancel the drag or preview, close the dialog, or clear the selection"],
+    ["← →", "Move the playhead by one sample; with Shift by ten"],
+    ["Home, End", "Move the playhead to the first or last sample"],
+    ["L", "Loop the selected samples, or all samples, while the preview plays"],
     ["+ − F", "Zoom in, zoom out, show the whole timeline"],
     ["Ctrl+Z", "Undo"],
-    ["Ctrl+Y", "Redo; Ctrl+Shift+Z as well"],
+    ["Ctrl+Y", "Redo; Ctrl+Shift+Z does the same"],
     ["Ctrl+S", "Save"],
-    ["F6", "The next part of the page; with Shift the one before. Before the top bar comes the button of the next act"],
-    ["[ ]", "[ folds the drawer, ] the inspector; the same key opens it again. Design, Simulate, Check & approve and Run open the inspector too"],
+    ["F6", "Go to the next part of the page; with Shift to the previous part. "
+      + "Shift+F6 in the top bar goes to the button of the next action"],
+    ["[ ]", "[ closes or opens the drawer at the left, ] the inspector at the right. "
+      + "Design, Simulate, Check & approve and Run open the inspector too"],
     ["?", "This list"],
   ],
   "Cells of the timeline": [
-    ["Arrows", "Move between cells; with Ctrl to the next border of a swing"],
-    ["Home, End", "To the row's ends; with Ctrl to the first or last cell of all"],
-    ["Space, Enter", "Swing or stance, where the keyboard led to the cell"],
-    ["Shift+arrows", "Select; with Home and End to the row's ends"],
+    ["Arrows", "Move between cells; with Ctrl to the next start or end of a swing"],
+    ["Home, End", "Go to the first or last cell of the row; with Ctrl, of the whole timeline"],
+    ["Space, Enter", "Change the cell to swing or stance. "
+      + "This works only if you came to the cell by keyboard"],
+    ["Shift+arrows", "Select cells; Shift+Home and Shift+End select to the start or end of the row"],
     ["Shift+Space", "Select the row"],
     ["Ctrl+A", "Select all"],
     ["Ctrl+C, X, V, D", "Copy, cut, paste, duplicate"],
-    ["Delete", "To stance"],
-    ["K", "Lock the selection or the cell; again unlocks"],
+    ["Delete", "Change the selected cells to stance"],
+    ["K", "Lock the selection or the focused cell. Press K again to unlock"],
   ],
   "Pointer on the timeline": [
-    ["Drag", "What the tool says. Paint: from stance it paints, a swing or its end is moved"],
-    ["Alt or B + drag", "Paint over swings too; B alone chooses Paint"],
-    ["Shift + drag", "Lock; from a locked cell on unlock"],
-    ["Ctrl + drag", "Select cells; Shift + click extends the selection, a click on a row's name selects the row"],
-    ["Double click", "With Select: the whole swing; its drag moves it, with Alt a copy"],
-    ["Ctrl + wheel", "Zoom; two fingers as well. The wheel alone scrolls"],
+    ["Drag", "Use the chosen tool. "
+      + "With Paint: a drag on stance draws a swing, a drag on a swing moves the swing or its end"],
+    ["Alt or B + drag", "Paint, also from a cell with a swing. B alone chooses the tool Paint"],
+    ["Shift + drag", "Lock cells. A drag that starts on a locked cell unlocks cells"],
+    ["Ctrl + drag", "Select cells. Shift + click extends the selection. "
+      + "A click on a row's name selects the row"],
+    ["Double click", "With the tool Select: select the whole swing. "
+      + "Then drag to move the swing, or with Alt to copy it"],
+    ["Ctrl + wheel", "Zoom the timeline. The wheel alone scrolls"],
   ],
   "Lists and toolbars": [
-    ["↑ ↓", "In a list: another line. Home and End: the first and the last one"],
-    ["← →", "In a toolbar: the next or previous button. On the tabs: the next or previous tab"],
-    ["Enter", "Open it; on Send to robot, held for a second, send it"],
-    ["Double click", "A gait's name, to write another one"],
+    ["↑ ↓", "In a list: go to the previous or next line. Home and End: go to the first or last line"],
+    ["← →", "In a toolbar: go to the previous or next button. On the tabs: go to the previous or next tab"],
+    ["Enter", "In a list: open the line. On Send to robot: hold Enter for one second to send the gait"],
+    ["Double click", "On a gait in the list: change its name"],
   ],
   "Touch": [
-    ["Long press", "What something means: the same words as under the pointer"],
+    ["Long press", "Show the explanation that a mouse pointer shows"],
     ["Two fingers", "Zoom the timeline"],
   ],
   "Segment table": [
     ["Letters, Enter", "Choose a segment"],
-    ["Delete", "Wait"],
-    ["Ctrl+C, X, V", "As in a spreadsheet; Ctrl+D fills down"],
-    ["Insert", "A new segment after the selected ones, with Alt before"],
+    ["Delete", "Let the foot wait in this segment"],
+    ["Ctrl+C, X, V", "Copy, cut, paste as in a spreadsheet. "
+      + "Ctrl+D fills the selected cells below the first row"],
+    ["Insert", "Insert a new segment after the selected segments; with Alt before them"],
     ["Ctrl+Delete", "Remove the selected segments"],
   ],
   "Parts of a sequence": [
-    ["↑ ↓", "Another part; with Alt the part itself moves"],
-    ["Enter", "Where the part begins"],
-    ["Delete", "Take the part out"],
+    ["↑ ↓", "Go to the previous or next part; with Alt move the part up or down"],
+    ["Enter", "Go to the start of the part"],
+    ["Delete", "Remove the part from the sequence"],
   ],
   "Pattern search": [
-    ["← →", "On a gait's cursor: its sample; with Shift ten, Home and End"],
-    ["Space, Enter", "On a cell: draw the other value; on a drawn cell free it"],
-    ["K", "Fix the cell as it is"],
-    ["↑ ↓", "In the best patterns: another one"],
+    ["← →", "On the cursor of a gait: move by one sample; with Shift by ten. "
+      + "Home and End: go to the first or last sample"],
+    ["Space, Enter", "On a cell: draw the other value, which is then fixed. "
+      + "On a drawn cell: the solver chooses the value again"],
+    ["K", "Fix the present value of the cell"],
+    ["↑ ↓", "In the list of the best patterns: show the previous or next pattern"],
   ],
   "Pictures of videos and cameras": [
-    ["Wheel, + − F", "Zoom in, zoom out, show the whole picture; a drag or the arrows move it"],
-    ["Arrows", "On a point: 1 px; with Shift 10, with Alt 0.1. Delete removes it"],
+    ["Wheel, + − F", "Zoom in, zoom out, show the whole picture. A drag or the arrow keys move the picture"],
+    ["Arrows", "On a point: move the point by 1 px; with Shift by 10 px, with Alt by 0.1 px. "
+      + "Delete removes the point"],
   ],
   "Goal and numbers": [
-    ["Arrows", "Goal in 3D: 0.5 mm, on its knob 1°; with Shift ten times as far. In a number: one step"],
+    ["Arrows", "On the goal in 3D: move by 0.5 mm. On its knob: turn by 1°. With Shift: ten times as far. "
+      + "In a number field: change the number"],
   ],
 };
 

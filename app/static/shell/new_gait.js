@@ -11,9 +11,18 @@ const OWN = "own";
 const KNOT_SECONDS = 0.4;
 const ORIENTATIONS = [["FB", "Along the diagonal (FB)"], ["FBS", "Along x (FBS)"]];
 const NUMBERS = [
-  { key: "step", label: "Step", unit: "mm", min: 0, max: 60, step: "any", help: "How far the body goes in one iteration (each foot steps once), in the direction of the gait" },
-  { key: "phase_knots", label: "Phase length", unit: "samples", min: 2, max: 50, step: 1, help: "Samples of each stance phase and of each swing" },
-  { key: "closing_knots", label: "Final stance", unit: "samples", min: 0, max: 100, step: 1, help: "All feet down after the last swing" },
+  {
+    key: "step", label: "Step", unit: "mm", min: 0, max: 60, step: "any",
+    help: "How far the body moves in one iteration, in which each foot steps once",
+  },
+  {
+    key: "phase_knots", label: "Phase length", unit: "samples", min: 2, max: 50, step: 1,
+    help: "Length of each stance phase and of each swing",
+  },
+  {
+    key: "closing_knots", label: "Final stance", unit: "samples", min: 0, max: 100, step: 1,
+    help: "How long all feet stay on the ground after the last swing",
+  },
 ];
 
 /** A label, its control and the place for what is wrong with it. */
@@ -24,17 +33,22 @@ function row(key, label, control, help) {
   return { key, control, setError, element: h("label", { class: "new-row", title: help }, h("span", { class: "name", text: label }), box, error) };
 }
 
+const textField = (name, more = {}) =>
+  h("input", { "aria-label": name, autocomplete: "off", required: true, ...more });
 const select = (name, options) => h("select", { "aria-label": name }, ...options);
 const choices = (pairs) => pairs.map(([value, text]) => h("option", { value, text }));
 const digits = (text) => text.split(/[^0-9]+/).filter(Boolean).map(Number);
 
 function controls(list) {
   return [
-    row("name", "Name", h("input", { "aria-label": "Name of the new gait", maxlength: "60", required: true, autocomplete: "off" }), "What the gait is called"),
-    row("robot", "Robot", select("Robot of the new gait", robotOptions(list)), "Which robot it is for"),
-    row("orientation", "Heading", select("Heading", choices(ORIENTATIONS)), "FB: front and back pairs, along the diagonal between x and y. FBS: front, sides and back, along x"),
+    row("name", "Name", textField("Name of the new gait", { maxlength: "60" }), "The name of the new gait"),
+    row("robot", "Robot", select("Robot of the new gait", robotOptions(list)), "The robot of the new gait"),
+    row("orientation", "Heading", select("Heading", choices(ORIENTATIONS)),
+      "FB: walk along the diagonal between x and y, with feet in front and at the back. "
+      + "FBS: walk along x, with feet in front, at the sides and at the back"),
     row("pattern", "Pattern", select("Pattern", []), "Foot orders that work for this robot"),
-    row("order", "Foot order", h("input", { "aria-label": "Order of the feet", autocomplete: "off", required: true }), "Which foot steps when: each foot once"),
+    row("order", "Foot order", textField("Order of the feet"),
+      "The order in which the feet step. Each foot steps once"),
     ...NUMBERS.map(({ key, label, unit, min, max, step, help }) => row(key, label,
       h("input", { type: "number", "aria-label": label, min, max, step, required: true, data: { unit } }), `${help} (${min} to ${max} ${unit})`)),
   ];
@@ -54,7 +68,8 @@ function problems(value, robot) {
   if (!value("name").trim()) found.name = "Give the gait a name.";
   const order = digits(value("order"));
   if ([...order].sort((a, b) => a - b).join() !== Array.from({ length: robot.legs }, (_, foot) => foot + 1).join()) {
-    found.order = `Name each of the feet 1 to ${robot.legs} once, for example ${robot.orders.FB[0].feet.join(" ")}.`;
+    const example = robot.orders.FB[0].feet.join(" ");
+    found.order = `Enter each of the feet 1 to ${robot.legs} once, for example ${example}.`;
   }
   for (const { key, label, unit, min, max, step } of NUMBERS) {
     const number = value(key) === "" ? NaN : Number(value(key));
@@ -87,8 +102,12 @@ function form(list, preset) {
 
   function sum() {
     const samples = robot().legs * 2 * Number(value("phase_knots")) + Number(value("closing_knots"));
-    const coupled = robot().coupled ? ` ${robot().motors} motors drive ${robot().strokes} strokes: Check says what the feet really do.` : "";
-    note.textContent = `${samples} samples, ${((samples - 1) * KNOT_SECONDS).toFixed(1)} s an iteration.${coupled}`;
+    const { motors, strokes } = robot();
+    const coupled = !robot().coupled ? ""
+      : ` ${motors} motors drive ${strokes} strokes, so the feet may leave the plan. `
+        + "Check shows how the feet really move.";
+    const lasts = ((samples - 1) * KNOT_SECONDS).toFixed(1);
+    note.textContent = `One iteration has ${samples} samples and takes ${lasts} s.${coupled}`;
   }
 
   of.robot.control.addEventListener("change", () => { suggestOrder(); set("phase_knots", robot().phase_knots); sum(); });
@@ -150,7 +169,10 @@ export async function askNewGait(preset) {
         create.disabled = false;
       }
     };
-    const dialog = dialogFrame("New gait", close, accept, h("p", { class: "quiet", text: preset.sentence ?? "Its feet step one after the other; the timeline can be drawn on afterwards." }),
+    const usual = "In the new gait the feet step one after the other. "
+      + "You can change its timeline afterwards.";
+    const dialog = dialogFrame("New gait", close, accept,
+      h("p", { class: "quiet", text: preset.sentence ?? usual }),
       ...parts.rows.map(({ element }) => element), parts.note, general,
       h("div", { class: "buttons" }, h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } }), create));
     dialog.classList.add("new-gait");
@@ -165,6 +187,7 @@ export function presetFor(robot, document) {
   return {
     robot: robot.name, name: `${document.name}, ${robot.title.split(",")[0]}`.slice(0, 60), orientation: document.orientation,
     step: Number((stepLength(document) * 1000).toFixed(2)), closing_knots: document.options.closing_knots,
-    sentence: `${robot.title} has ${robot.legs} legs, “${document.name}” has ${feet}. So it gets a gait of its own, and this one stays as it is.`,
+    sentence: `“${document.name}” is a gait for ${feet} legs, but ${robot.title} has ${robot.legs} legs. `
+      + `So you make a new gait for this robot. “${document.name}” does not change.`,
   };
 }

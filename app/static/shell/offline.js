@@ -8,11 +8,14 @@ const PARTS = [
   "#drawers", ".rail", ".inspector-head", "#sections", ".inspector-foot", ".pattern-panel", "#tools", "#timeline", "#parts", "#segments", ".pattern-view",
   ".gait-pill", ".history", "#operator", "#goal", "#pose", "#file-notice",
 ];
-const SENTENCE = "No connection to the studio. Until the connection is back only Stop can be pressed, and even Stop may not arrive.";
+const SENTENCE = "No connection to the studio. Until the connection is back you can only press Stop, "
+  + "and Stop may not reach the robot.";
 
 function sentence({ pending, left }) {
   const unsent = pending.length + left.length;
-  return unsent ? `${SENTENCE} ${unsent === 1 ? "One edit was" : `${unsent} edits were`} not sent yet: kept here, and sent then.` : SENTENCE;
+  if (!unsent) return SENTENCE;
+  const edits = unsent === 1 ? "one edit and sends the edit" : `${unsent} edits and sends the edits`;
+  return `${SENTENCE} This page keeps ${edits} when the connection is back.`;
 }
 
 /** Switches the parts off while the studio does not answer, and says so. */

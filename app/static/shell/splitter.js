@@ -19,7 +19,8 @@ const [LEAST_SCALE, MOST_SCALE] = [0.8, 3];
 const [USUAL_SHARE, LOW_SHARE, LOW_PX] = [0.5, 0.43, 800];
 /** Narrower pages scroll as a whole. */
 const NARROW_PX = 900;
-const HELP = "Drag it, or use Up and Down; Home and End for the smallest and largest, double click or Enter for the usual height";
+const HELP = "Drag this edge, or use Up and Down. Home and End set the smallest and the largest height. "
+  + "Double click or Enter restores the usual height";
 
 const most = () => Math.max(LEAST_PX, window.innerHeight - byId("stop").closest("header").offsetHeight - LEAST_STAGE_PX);
 

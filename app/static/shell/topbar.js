@@ -87,13 +87,15 @@ function mountName(store, edits) {
     const unfit = segmentDraftOf(now).steps.length > 0;
     show();
     input.size = Math.max(4, input.value.length);
-    setAttribute(input, "title", view ? `${view.name}. The file keeps its name gaits/${view.id}.json when you rename the gait` : null);
+    const file = view && `If you rename the gait, its file name stays gaits/${view.id}.json`;
+    setAttribute(input, "title", view ? `${view.name}. ${file}` : null);
     setText(byId("saved-state"), savedWord(now, unfit));
     setAttribute(byId("saved-state"), "title", view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null);
   });
 }
 
-const UNFIT = "The segment table does not fit together after its last change. This tab keeps the change, the gait still has the last table that fits.";
+const UNFIT = "After the last change, some segments of the segment table do not fit together. "
+  + "Only this tab keeps the change. The gait still uses the table before the change.";
 
 /** How the shown gait is kept, in a few words. */
 function savedWord({ view, pending, refused, connected }, unfit) {
@@ -106,8 +108,9 @@ function savedWord({ view, pending, refused, connected }, unfit) {
 
 /** Every edit is in the studio's database before it is shown as done; Save writes the file that others can read. */
 function savedHelp(view) {
-  const file = view.saved_at ? `Its file in the data folder is of ${clockTime(view.saved_at)}.` : "It has no file in the data folder yet.";
-  return view.edited ? `Every edit is kept and survives a restart. ${file} Save writes the file.` : file;
+  const file = view.saved_at ? `Last saved to its file in the data folder: ${clockTime(view.saved_at)}.`
+    : "The gait has no file in the data folder yet.";
+  return view.edited ? `The studio keeps every edit after a restart. ${file} Save writes the file.` : file;
 }
 
 function mountHistory(store, edits) {
@@ -155,7 +158,7 @@ function mountStates(store) {
     operator.replaceChildren(h("span", { class: "initial", "aria-hidden": "true", text: state.operator ? state.operator.charAt(0).toUpperCase() : "?" }), h("span", { class: "name", text: state.operator || "Your name" }));
     operator.toggleAttribute("data-named", Boolean(state.operator));
     setAttribute(operator, "aria-label", state.operator ? `Operator ${state.operator}` : "Your name. Operator not named");
-    operator.title = "Your name, kept with approvals and runs. Click to change it.";
+    operator.title = "Your name is recorded with approvals and runs. Click to change your name.";
   });
 }
 
@@ -170,7 +173,8 @@ export function mountTopbar(store, edits) {
   byId("stop").addEventListener("click", () => stopRobot(store));
   store.watch((state) => [stopLimit(state)], (state) => {
     const limit = stopLimit(state);
-    const within = limit ? `Takes effect within ${seconds(limit)} s, after the move that is running.` : "Takes effect after the move that is running.";
-    byId("stop").title = `Stop the robot (Esc while a run is on). ${within}`;
+    const within = limit ? `The robot ends its present move and stops within ${seconds(limit)} s.`
+      : "The robot ends its present move and then stops.";
+    byId("stop").title = `Stop the robot (Esc during a run). ${within}`;
   });
 }

@@ -25,7 +25,7 @@ function option(version, choose) {
 function parts(id) {
   const list = h("ul", { class: "version-list", role: "listbox", tabindex: "0", "aria-label": "Versions", data: { arrows: "" } });
   const difference = h("div", { class: "version-difference", role: "region", "aria-label": "Difference", tabindex: "0" });
-  const against = h("select", { "aria-label": "Compared with", title: "What the version is compared with" });
+  const against = h("select", { "aria-label": "Compared with", title: "Choose what to compare this version with" });
   const restore = h("button", { type: "button", class: "primary", text: "Restore" });
   const name = h("input", { "aria-label": "Name of this state", placeholder: "Name for the present state", maxlength: "80", autocomplete: "off" });
   return { id, list, difference, against, restore, name, heading: h("h4", {}) };
@@ -47,7 +47,8 @@ function panel(store, edits, ui) {
     const to = ui.against.value ? Number(ui.against.value) : null;
     const { groups } = await api.difference(ui.id, chosen, to);
     if (isOld()) return;
-    ui.heading.textContent = to === null ? `Since version ${chosen}` : `From version ${chosen} to version ${to}`;
+    ui.heading.textContent = to === null ? `Changes since version ${chosen}`
+      : `Changes from version ${chosen} to version ${to}`;
     ui.difference.replaceChildren(ui.heading, ...sentences(groups));
   });
 
@@ -57,7 +58,9 @@ function panel(store, edits, ui) {
     for (const item of ui.list.children) setAttribute(item, "aria-selected", String(item.id === `version-${number}`));
     ui.list.setAttribute("aria-activedescendant", `version-${number}`);
     byId(`version-${number}`)?.scrollIntoView({ block: "nearest" });
-    setAllowed(ui.restore, version.problem ?? (version.present ? "The gait is as in this version." : null), `Restores version ${number}; Undo takes that back`);
+    const same = version.present ? "The gait is already the same as this version." : null;
+    const help = `Restore version ${number}. Undo brings back the present state`;
+    setAllowed(ui.restore, version.problem ?? same, help);
     return showDifference();
   }
 
@@ -74,7 +77,9 @@ function panel(store, edits, ui) {
     if (!versions.length) {
       ui.list.removeAttribute("aria-activedescendant");
       setAllowed(ui.restore, "There is no version yet.");
-      ui.difference.replaceChildren(h("p", { class: "quiet", text: "There is no version yet. Saving, approving and naming make one; while you edit, one is made every two minutes." }));
+      const none = "There is no version yet. "
+        + "A version is made when you save, approve or name the gait, and every two minutes while you edit.";
+      ui.difference.replaceChildren(h("p", { class: "quiet", text: none }));
       return undefined;
     }
     return choose(versions.some(({ number }) => number === chosen) ? chosen : versions[0].number);
@@ -91,7 +96,7 @@ function panel(store, edits, ui) {
 
   const restore = attempt(async () => {
     await edits.restoreVersion(chosen);
-    toast(`Version ${chosen} is restored. Undo takes that back.`);
+    toast(`Version ${chosen} is restored. Undo brings back the state before.`);
     announce(`Version ${chosen} restored.`);
     ui.list.focus();
   });
@@ -121,7 +126,7 @@ export function mountVersions(store, edits) {
     const behaviour = panel(store, edits, ui);
     openDialog((close) => {
       const frame = dialogFrame(`Versions of ${view.name}`, close, behaviour.keep,
-        h("p", { class: "quiet", text: "Every edit is kept at once. These are the states worth going back to." }),
+        h("p", { class: "quiet", text: "A version is an earlier state of the gait that you can restore." }),
         h("div", { class: "version-columns" }, ui.list, h("div", { class: "version-side" },
           h("label", { class: "version-against quiet" }, "Compared with ", ui.against), ui.difference)),
         h("div", { class: "version-name" }, ui.name, h("button", { type: "submit", text: "Name this state" })),
@@ -135,7 +140,8 @@ export function mountVersions(store, edits) {
 
   onPress(button, show);
   store.watch(({ view }) => [view?.id, view?.revision, view?.version, view?.stamp], ({ view }) => {
-    setAllowed(button, view ? null : "No gait is selected.", "The states of this gait that can be gone back to, and what is different");
+    const help = "Compare and restore earlier states of this gait";
+    setAllowed(button, view ? null : "No gait is selected.", help);
     if (!open?.element.isConnected || !view) return;
     if (open.id === view.id) open.refresh();
     else open.close(null);

@@ -9,12 +9,17 @@ import { hasNoMotion, shownPlan } from "../state/store.js";
 import { approvalState, checkState, gaitParts, simulateState } from "./step_states.js";
 import { openStep } from "./steps.js";
 
+const SIMULATE_HELP = "Simulate exactly the waypoints that would be sent to the robot.";
+const CHECK_HELP = "Check tests every rule. Then you can approve the gait.";
+const APPROVE_HELP = "Only an approved gait can be sent to the robot.";
+const RUN_HELP = "The gait is approved. Now connect, arm and send.";
+
 /** Each act: the step where it takes place, its button's text, the button that does it, and a line below. */
 const ACTS = {
-  simulate: { step: "simulate", text: "Simulate", button: "act-simulate", help: "Physics tries exactly what would be sent." },
-  check: { step: "check", text: "Check", button: "act-check", help: "Every rule with its margin, then your approval." },
-  approve: { step: "check", text: "Go to approval", button: null, focus: "act-approve", help: "Only an approved gait can be sent." },
-  run: { step: "run", text: "Go to Run", button: null, help: "Approved. Connect, arm and send." },
+  simulate: { step: "simulate", text: "Simulate", button: "act-simulate", help: SIMULATE_HELP },
+  check: { step: "check", text: "Check", button: "act-check", help: CHECK_HELP },
+  approve: { step: "check", text: "Go to approval", button: null, focus: "act-approve", help: APPROVE_HELP },
+  run: { step: "run", text: "Go to Run", button: null, help: RUN_HELP },
 };
 
 /** Why the act is not possible yet, in a sentence; why there is no motion stands in the step Design. */

@@ -23,7 +23,9 @@ function designState(now) {
   const plan = shownPlan(now);
   const [word, tone] = planState(plan);
   // Below the margin that the robot needs only physics can say whether it walks.
-  if (tone === "good" && isThin(plan) && !simulationOver(now)) return state("old", "small margin, not simulated yet");
+  if (tone === "good" && isThin(plan) && !simulationOver(now)) {
+    return state("old", "small stability margin, not simulated yet");
+  }
   return state(MARK_OF[tone], lowered(word));
 }
 
@@ -87,7 +89,9 @@ function runState(now) {
   }
   const last = run?.gait ? { ...run, state: run.end } : robot?.previous_run;
   if (!last || !view || last.gait !== selected) return state("none", "not yet");
-  if (last.waypoints_hash !== view.plan?.waypoints_hash || isEdited(now)) return state("old", "ran before this edit");
+  if (last.waypoints_hash !== view.plan?.waypoints_hash || isEdited(now)) {
+    return state("old", "last run was before this edit");
+  }
   return state(RUN_MARKS[last.state] ?? "none", last.state);
 }
 

@@ -7,10 +7,10 @@ import { gaitParts, stepStates } from "./step_states.js";
 
 /** Each step with the line under its title in the inspector. */
 const STEPS = {
-  design: { title: "Design", help: "Say where to go. The plan follows your edits." },
-  simulate: { title: "Simulate", help: "Try in physics exactly what would be sent." },
-  check: { title: "Check & approve", help: "Every rule with its margin, then your approval." },
-  run: { title: "Run", help: "Only what is approved is sent." },
+  design: { title: "Design", help: "Choose where and how the robot walks. The plan follows your edits." },
+  simulate: { title: "Simulate", help: "Simulate exactly the waypoints that would be sent to the robot." },
+  check: { title: "Check & approve", help: "Check tests every rule. Then you can approve the gait." },
+  run: { title: "Run", help: "Only an approved gait can be sent to the robot." },
 };
 const NAMES = Object.keys(STEPS);
 

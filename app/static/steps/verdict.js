@@ -9,10 +9,14 @@ import { hasNoMotion, shownPlan } from "../state/store.js";
 import { approvalState, checkState, gaitParts, simulateState, stepStates } from "./step_states.js";
 import { openStep } from "./steps.js";
 
-const MARGIN_HELP = "Margin: how far the balance point stays inside the area between the standing feet; "
-  + "below 0 the robot tips. "
-  + "The balance point is the centre of pressure where the motion is solved, else the centre of mass.";
-const LIVE_HELP = "A live plan is made anew after every edit; footholds and body height are given.";
+const MARGIN_HELP = "Stability margin: how far the balance point stays inside the area between "
+  + "the feet on the ground. Below 0 the robot tips. "
+  + "The balance point is the centre of pressure of a solved motion. "
+  + "In any other motion it is the centre of mass.";
+const LIVE_HELP = "A live plan is computed again after every edit. "
+  + "Its footholds and body height are set in advance, not optimised.";
+
+const NO_PLAN = "There is no plan yet. Press Optimise to see the gait move.";
 
 const SETTLED_MS = 1000;
 const NONE = "–";
@@ -22,14 +26,16 @@ const USUAL = "Plan found";
 /** What is known of the plan: mark, figure and the sentence on hover. */
 function planPart(state) {
   const plan = shownPlan(state);
-  if (!plan) return { mark: "none", figure: state.view ? "none yet" : NONE, help: "No plan: optimise this gait to see it move." };
+  if (!plan) return { mark: "none", figure: state.view ? "none yet" : NONE, help: NO_PLAN };
   const { mark } = stepStates(state).design;
   const [word] = planState(plan);
   const isMotion = plan.times.length > 0 && word !== "No motion";
   const margin = isMotion && plan.balance !== null ? `margin ${mm(plan.balance)} mm` : null;
   const figure = [word === USUAL && margin ? null : lowered(word), margin].filter(Boolean).join(", ");
   const tone = !margin ? null : plan.balance < 0 ? "bad" : mark === "old" && isThin(plan) ? "caution" : null;
-  const thin = tone === "caution" ? `The robot needs a margin of ${mm(plan.robot_margin)} mm as sent; below it only physics can say whether it walks.` : "";
+  const thin = tone !== "caution" ? ""
+    : `The robot needs a stability margin of ${mm(plan.robot_margin)} mm. `
+      + "Below this only Simulate shows whether the robot walks.";
   const live = word === USUAL && plan.live ? LIVE_HELP : "";
   const help = [`${word}.`, thin, plan.note, live, isMotion ? MARGIN_HELP : ""].filter(Boolean).join(" ");
   return { mark, figure, tone, help };
@@ -41,7 +47,11 @@ function robotPart(state) {
   const seconds = hasNoMotion(plan) ? null : plan?.robot_seconds;
   if (!seconds) return { figure: NONE, help: "Time and speed on the robot are not known yet." };
   const speed = plan === view?.plan ? paceText(view) : "";
-  return { figure: [`${fixed(seconds)} s`, speed].filter(Boolean).join("  "), help: `On the robot the motion takes about ${fixed(seconds)} s${speed && `, which is ${speed}`}. It leaves out the way to the start pose.` };
+  const takes = `On the robot the motion takes about ${fixed(seconds)} s${speed && `, which is ${speed}`}.`;
+  return {
+    figure: [`${fixed(seconds)} s`, speed].filter(Boolean).join("  "),
+    help: `${takes} The moves to the start pose are not included.`,
+  };
 }
 
 function simulatedPart(state) {
@@ -49,12 +59,17 @@ function simulatedPart(state) {
   const variations = mark === "done" || mark === "failed" ? simulationOver(state)?.variations : null;
   const walking = variations?.runs.filter(({ walks }) => walks).length;
   const figure = mark === "none" ? NONE : variations ? `${walking}/${variations.count}` : word;
-  return { mark, figure, help: mark === "none" ? "Not simulated yet." : `${capital(word)}.${variations ? ` ${walking} of ${variations.count} variations walk.` : ""}` };
+  if (mark === "none") return { mark, figure, help: "Not simulated yet." };
+  if (mark === "old") return { mark, figure, help: "The gait was simulated before this edit." };
+  const share = variations ? ` The robot walks in ${walking} of ${variations.count} variations.` : "";
+  return { mark, figure, help: `${capital(word)}.${share}` };
 }
 
 function checkedPart(state) {
   const { mark, word } = checkState(state);
-  return { mark, figure: mark === "none" ? NONE : word, help: mark === "none" ? "Not yet checked for sending." : `Check before sending: ${word}.` };
+  if (mark === "none") return { mark, figure: NONE, help: "The gait is not checked yet." };
+  if (mark === "old") return { mark, figure: word, help: "The check is out of date. Check the gait again." };
+  return { mark, figure: word, help: `Check: ${word}.` };
 }
 
 function approvedPart(state) {

@@ -7,6 +7,10 @@ import { openVideo } from "./video_page.js";
 import { videoApi } from "../api/videos.js";
 import { uploadField, videoRow } from "./video_rows.js";
 
+const UPLOAD_HELP = "Choose a video that shows the robot from below, through a glass platform. "
+  + "The studio finds the four coloured feet in every frame.";
+const NONE_YET = "No video yet. Your videos and the recordings of cameras are kept in the data folder.";
+
 /**
  * Opens the videos in the trials' panel.
  * @param {object} page `store`, `show(content, onLeave)`, `begin()` tells later whether something else was asked for, `all` shows the list of trials, `one` a trial
@@ -23,8 +27,8 @@ export const openVideos = attempt(async (page) => {
   oneTabStop(list);
   page.show(h("div", { class: "trial-form" },
     h("button", { type: "button", class: "link", text: "All trials", on: { click: page.all } }),
-    h("p", { class: "quiet", text: "A video of the robot from under its glass platform: the four coloured feet are found in every frame." }), upload,
-    h("h3", { text: "Videos" }), kept.length ? null : h("p", { class: "teach", text: "No video yet. What is sent here and what cameras record is kept in the data folder." }),
+    h("p", { class: "quiet", text: UPLOAD_HELP }), upload,
+    h("h3", { text: "Videos" }), kept.length ? null : h("p", { class: "teach", text: NONE_YET }),
     list));
 });
 

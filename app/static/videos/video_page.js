@@ -12,9 +12,13 @@ import { jobIsOn } from "../shell/job_list.js";
 import { walkFields } from "../trials/trial_form.js";
 import { videoFacts } from "./video_rows.js";
 
+const SETUP_HELP = "A camera setup describes the lens, the position of the platform in the picture and the "
+  + "colours of the feet.";
+
 /** The choice of a setup, with what is missing from it. */
 function setupChoice({ setups, chosen, changed, edit, make }) {
-  const select = h("select", { "aria-label": "Camera setup", title: "How the camera saw the platform, and which colours the feet have" },
+  const select = h("select", { "aria-label": "Camera setup", title: "Choose how the camera saw the "
+    + "platform, and which colours the feet have" },
     ...setups.map(({ id, setup }) => h("option", { value: id, text: setup.name })), setups.length ? null : h("option", { value: "", text: "none yet" }));
   const state = h("p", { class: "why", role: "status" });
   const change = h("button", { type: "button", class: "link", text: "Change it…" });
@@ -23,7 +27,7 @@ function setupChoice({ setups, chosen, changed, edit, make }) {
   const show = () => {
     const one = now();
     change.hidden = !one;
-    setText(state, one ? `${one.setup.name}, version ${one.revision}: ${setupText(one)}` : "A setup holds the lens, the place of the platform in the picture, and the colours of the feet.");
+    setText(state, one ? `${one.setup.name}, version ${one.revision}: ${setupText(one)}` : SETUP_HELP);
     changed(one);
   };
   select.addEventListener("change", show);
@@ -36,7 +40,8 @@ function removeButton(video, back) {
   const remove = attempt(async () => {
     await videoApi.remove(video.id);
     back();
-    toast(`The video ${video.name} is deleted; trials of it stay.`, { action: { label: "Undo", act: attempt(async () => { await videoApi.restore(video.id); back(); }) } });
+    const undo = attempt(async () => { await videoApi.restore(video.id); back(); });
+    toast(`The video “${video.name}” is deleted. Its trials are kept.`, { action: { label: "Undo", act: undo } });
   });
   return h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this video", on: { click: remove } });
 }
@@ -70,8 +75,9 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
 
   function allow() {
     const setup = choice.now();
-    const why = tracking ? "This video is being tracked." : !setup ? "Choose or make a camera setup first." : setup.ready ? null : setupText(setup);
-    setAllowed(track, why, "Follows the four feet through every frame");
+    const lack = !setup ? "Choose or make a camera setup first." : setup.ready ? null : setupText(setup);
+    const why = tracking ? "The studio is already tracking the feet in this video." : lack;
+    setAllowed(track, why, "Find the four feet in every frame and make a trial");
   }
 
   const begin = attempt(async () => {

@@ -14,7 +14,8 @@ const trialsText = ({ trials }) => (trials.length > 1 ? `has ${trials.length} tr
 
 /** A kept video in the list, with the ways to what was tracked in it. */
 export function videoRow(video, { open, trial }) {
-  const state = video.state === "kept" ? (video.kind === "recording" ? `of a run, camera ${video.camera}` : "") : video.state;
+  const origin = video.kind === "recording" ? `recorded run, camera ${video.camera}` : "";
+  const state = video.state === "kept" ? origin : video.state;
   const { trials } = video;
   const ways = trials.map(({ id, name }) => h("button", { type: "button", class: "link", text: trials.length > 1 ? `Trial: ${name}` : "Open its trial", title: name, on: { click: () => trial(id) } }));
   return h("li", {}, h("button", { type: "button", class: "run-row", data: { video: video.id }, title: video.sentence || "Track the feet in this video", on: { click: () => open(video) } },
@@ -51,7 +52,8 @@ function buildUpload() {
     }
     ending = null;
     [going.hidden, file.disabled, file.value] = [true, false, ""];
-    if (video?.again) toast(`${chosen.name} is here already, sent ${clockTime(video.made)} as “${video.name}”; it is not kept twice.`, { of: "studio" });
+    if (video?.again) toast(`The studio already has “${chosen.name}”, sent ${clockTime(video.made)} as `
+      + `“${video.name}”.`, { of: "studio" });
     if (video && field.element.isConnected) field.done(video);
     else if (video) toast(`${video.name} is sent.`, { action: { label: "Track its feet", act: () => field.done(video) } });
   }

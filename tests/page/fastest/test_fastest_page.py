@@ -56,7 +56,7 @@ def test_a_gait_is_made_of_what_is_chosen_and_shown(page: Page) -> None:
     dialog.get_by_label("Cycles").fill("0")
     dialog.get_by_role("button", name="Create").click()
     expect(dialog.get_by_role("alert")).to_have_text(
-        "Cycles is 0; it must be a whole number between 1 and 20."
+        "Cycles is 0, but must be a whole number between 1 and 20."
     )
     dialog.get_by_label("Cycles").fill("2")
     dialog.get_by_role("button", name="Create").click()

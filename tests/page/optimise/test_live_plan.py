@@ -223,7 +223,7 @@ def test_a_margin_below_the_robots_own_is_amber_until_physics_has_spoken(page: P
     margin = page.get_by_role("spinbutton", name="Stability margin")
     margin.fill("4")
     margin.press("Enter")
-    expect(page.get_by_role("tab", name="Design: small margin, not simulated yet")).to_be_visible()
+    expect(page.get_by_role("tab", name="Design: small stability margin, not simulated yet")).to_be_visible()
     page.get_by_role("button", name="Simulate", exact=True).first.click()
     expect(design).to_be_visible(timeout=30_000)
 

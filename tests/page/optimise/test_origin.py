@@ -76,5 +76,7 @@ def test_a_result_is_named_until_the_gait_is_another_one(page: Page) -> None:
 
 def test_a_companion_alone_is_refused_with_what_is_missing(page: Page, studio: StudioProcess) -> None:
     choose_files(page, files_of(studio, "walk-manual-0", "alone")[1:])
-    alert = page.get_by_role("alert").filter(has_text="alone.footfall.json is a trajectory's companion")
-    expect(alert).to_contain_text("Choose its trajectory (CSV) with it.")
+    alert = page.get_by_role("alert").filter(
+        has_text="“alone.footfall.json” has only the metadata of a trajectory"
+    )
+    expect(alert).to_contain_text("Choose also the file of the trajectory (CSV).")

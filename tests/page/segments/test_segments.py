@@ -118,7 +118,7 @@ def test_a_change_that_does_not_fit_stays_beside_the_last_table_until_a_button_m
     page.keyboard.press("Enter")
     expect(cell(page, 4, 1)).to_have_text("Lift A")
     expect(cell(page, 5, 1)).to_have_attribute("aria-invalid", "true")
-    expect(cell(page, 5, 1)).to_have_attribute("title", re.compile("the foot is at Home-None then"))
+    expect(cell(page, 5, 1)).to_have_attribute("title", re.compile("the segment before it ends at Home-None"))
     assert table(studio, gait) == before
     note(page).get_by_role("button", name="Insert Push A").click()
     expect(note(page)).to_be_hidden()

@@ -60,8 +60,8 @@ def undo(page: Page) -> Locator:
 def test_times_out_of_range_stay_with_the_reason(page: Page, studio: StudioProcess, tour: str) -> None:
     times = page.get_by_label("Times of part 1")
     for typed, sentence in (
-        ("99", "Times is 99; it must be a whole number between 1 and 20."),
-        ("2.5", "Times is 2.5; it must be a whole number between 1 and 20."),
+        ("99", "Times is 99, but must be a whole number between 1 and 20."),
+        ("2.5", "Times is 2.5, but must be a whole number between 1 and 20."),
     ):
         times.fill(typed)
         times.press("Enter")

@@ -81,9 +81,9 @@ def test_acts_tick_themselves_are_remembered_and_the_card_comes_back_from_help(p
 
 def test_a_remedy_is_found_by_way_of_a_drawn_gait(page: Page) -> None:
     open_by_help(page)
-    remedy = act(page, "Ask for too much")
-    remedy.get_by_role("button", name=re.compile("^Ask for too much")).click()
-    expect(remedy).to_contain_text("first choose Walk 10 mm under Examples")
+    remedy = act(page, "Ask for too long a step")
+    remedy.get_by_role("button", name=re.compile("^Ask for too long a step")).click()
+    expect(remedy).to_contain_text("under Examples, choose Walk 10 mm")
     where = card(page).get_by_role("button", name=re.compile("^Show me where: Ask"))
     where.click()
     walk = page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Walk 10 mm(?!,)"))
@@ -102,7 +102,7 @@ def test_a_remedy_is_found_by_way_of_a_drawn_gait(page: Page) -> None:
 
 def test_where_to_send_is_the_button_at_the_foot_of_the_step_that_is_open(page: Page) -> None:
     open_by_help(page)
-    act(page, "Send it").get_by_role("button", name=re.compile("^Send it")).click()
+    act(page, "Send the gait").get_by_role("button", name=re.compile("^Send the gait")).click()
     card(page).get_by_role("button", name=re.compile("^Show me where: Send")).click()
     expect(page.get_by_role("button", name="Simulate", exact=True)).to_be_focused()
     for scheme in ("light", "dark"):

@@ -65,7 +65,7 @@ def test_a_foot_order_is_judged_while_it_is_typed(page: Page) -> None:
     order = page.get_by_label("Order of the feet")
     order.fill("3 2 4")
     refusal = (
-        page.get_by_role("dialog").get_by_role("alert").filter(has_text="Name each of the feet 1 to 4 once")
+        page.get_by_role("dialog").get_by_role("alert").filter(has_text="Enter each of the feet 1 to 4 once")
     )
     expect(refusal).to_be_visible()
     expect(order).to_have_attribute("aria-invalid", "true")

@@ -44,7 +44,7 @@ def test_gaits_are_found_by_words_and_escape_shows_all(page: Page) -> None:
     expect(gaits.first).to_have_accessible_name(re.compile("Trot"))
     search.fill("nothing like it")
     expect(gaits).to_have_count(0)
-    expect(page.get_by_text("No gait has “nothing like it”")).to_be_visible()
+    expect(page.get_by_text("No gait matches “nothing like it”")).to_be_visible()
     search.press("Escape")
     expect(gaits).to_have_count(all_of_them)
     expect(search).to_have_value("")

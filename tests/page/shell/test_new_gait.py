@@ -62,7 +62,7 @@ def test_a_new_gait_is_made_by_keyboard_alone_for_a_robot_with_six_legs(
     page.keyboard.type("Hexa")
     expect(dialog.get_by_label("Robot of the new gait")).to_have_value("hexapod")
     expect(dialog.get_by_label("Order of the feet")).to_have_value("5 4 6 3 1 2")
-    expect(dialog.get_by_role("status")).to_contain_text("65 samples, 25.6 s an iteration")
+    expect(dialog.get_by_role("status")).to_contain_text("One iteration has 65 samples and takes 25.6 s")
     page.keyboard.press("Tab")
     page.keyboard.type("Along x")
     expect(dialog.get_by_label("Order of the feet")).to_have_value("4 3 5 2 6 1")
@@ -88,7 +88,7 @@ def test_what_is_wrong_stands_at_its_field_and_nothing_is_made(page: Page, studi
     dialog.get_by_role("button", name="Create").click()
     expect(dialog.get_by_label("Name of the new gait")).to_be_focused()
     for field, word in (
-        (order, "Name each of the feet 1 to 4 once"),
+        (order, "Enter each of the feet 1 to 4 once"),
         (step, "between 0 and 60 mm"),
         (dialog.get_by_label("Name of the new gait"), "Give the gait a name"),
     ):
@@ -182,7 +182,7 @@ def test_one_menu_acts_on_the_shown_gait_and_fits_into_the_window(page: Page) ->
         page.get_by_role("group", name="Export as").get_by_role("menuitem", name="Gait (JSON)").click()
     assert download.value.suggested_filename.endswith(".json")
     gait_act(page, "Delete")
-    expect(page.locator("#toasts")).to_contain_text("To be deleted is deleted.")
+    expect(page.locator("#toasts")).to_contain_text("“To be deleted” is deleted.")
     page.get_by_role("button", name="Bring it back").click()
     expect(page.get_by_label("Gait name")).to_have_value("To be deleted")
 
@@ -206,7 +206,7 @@ def test_a_deleted_gait_is_brought_back_after_a_reload(page: Page, studio: Studi
     new = page.get_by_role("button", name="New", exact=True)
     entry = page.get_by_role("menuitem", name="Deleted gaits…")
     new.press("ArrowDown")
-    expect(entry).to_have_attribute("title", "No gait is deleted: there is nothing to bring back.")
+    expect(entry).to_have_attribute("title", "No gait is deleted, so there is no gait to bring back.")
     expect(entry).to_have_attribute("aria-disabled", "true")
     made = studio.ask("POST", "/api/gaits?copy_of=walk&name=Gone%20and%20back").content
     assert studio.ask("DELETE", f"/api/gaits/{made['id']}").status == 200

@@ -84,10 +84,10 @@ def test_an_end_of_a_swing_its_middle_and_alt_each_do_their_own(page: Page, stud
     choose(page, "Walk 10 mm")
     assert swings(studio, "walk", 3) == [(6, 10)]
     drag(page, 3, 10, 12)
-    expect(undo(page)).to_have_attribute("title", re.compile("Foot 3: swing to samples 6–12 "))
+    expect(undo(page)).to_have_attribute("title", re.compile("Foot 3: swing at samples 6–12 "))
     wait_for(lambda: swings(studio, "walk", 3) == [(6, 12)], "the end has moved")
     drag(page, 3, 8, 7)
-    expect(undo(page)).to_have_attribute("title", re.compile("Foot 3: swing moved by −1 "))
+    expect(undo(page)).to_have_attribute("title", re.compile("Foot 3: swing moved by −1 sample "))
     wait_for(lambda: swings(studio, "walk", 3) == [(5, 11)], "the swing has moved")
     page.keyboard.down("Alt")
     drag(page, 3, 10, 11)
@@ -182,7 +182,7 @@ def test_what_was_refused_stays_with_the_reason_until_it_is_repaired_or_escape(p
         (
             "Phase length",
             "2.5",
-            "Phase length is 2.5 samples; it must be a whole number between 2 and 50 samples.",
+            "Phase length is 2.5 samples, but must be a whole number between 2 and 50 samples.",
         ),
         ("Final stance", "", "Final stance needs a whole number between 0 and 100 samples."),
         ("Clearance", "99", "Clearance is 99 mm; it must lie between 0 and 15 mm."),

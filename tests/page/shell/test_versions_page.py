@@ -40,7 +40,7 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     expect(options(page)).to_have_count(1)
     expect(page.get_by_role("listbox", name="Versions")).to_be_focused()
     difference = page.get_by_role("region", name="Difference")
-    expect(difference).to_contain_text("Since version 1")
+    expect(difference).to_contain_text("since version 1")
     expect(difference).to_contain_text("Stability margin 6.0 mm → 2.0 mm")
 
     field = page.get_by_label("Name of this state")
@@ -55,7 +55,7 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     versions = page.get_by_role("listbox", name="Versions")
     versions.focus()
     versions.press("End")
-    expect(difference).to_contain_text("Since version 1")
+    expect(difference).to_contain_text("since version 1")
     page.get_by_label("Compared with").select_option(label="version 2, Two millimetres")
     expect(difference).to_contain_text("From version 1 to version 2")
     restore = page.get_by_role("button", name="Restore")

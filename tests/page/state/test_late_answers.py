@@ -177,7 +177,7 @@ def test_a_gait_that_is_not_listed_yet_is_copied_and_deleted(browser: Browser, s
         expect(name).to_have_value("Fresh copy copy")
         assert late.count > 0, "the list was held back"
         gait_act(page, "Delete")
-        expect(page.locator("#toasts")).to_contain_text("Fresh copy copy is deleted")
+        expect(page.locator("#toasts")).to_contain_text("“Fresh copy copy” is deleted")
         expect(name).not_to_have_value("Fresh copy copy")
         late.let_go()
         expect(row(page, "Fresh copy")).to_be_visible()

@@ -73,26 +73,26 @@ def test_of_balance_the_swings_are_to_blame_and_of_reach_the_foot(page: Page) ->
 
 
 def test_a_flag_says_why_in_a_few_words(page: Page) -> None:
-    assert words_of(page, "0101", lack("body_torque", 4, 6, 1, 3)) == "1 and 3 in the air"
+    assert words_of(page, "0101", lack("body_torque", 4, 6, 1, 3)) == "feet 1 and 3 in the air"
     assert words_of(page, "000111", lack("margin", 4, 6, 3, 4)) == "margin 1.0 mm short"
-    assert words_of(page, "001100", lack("margin", 4, 6, 3, 4)) == "1, 2, 5 and 6 in the air"
+    assert words_of(page, "001100", lack("margin", 4, 6, 3, 4)) == "feet 1, 2, 5 and 6 in the air"
     assert words_of(page, "0111", lack("margin", 4, 6, 1, 3, amount=0.84)) == "margin 0.8 mm short"
     assert words_of(page, "1111", lack("workspace", 4, 6, 1, amount=3.12)) == "foot 2: reach 3.1 mm short"
     assert words_of(page, "1110", lack("foot_speed", 4, 6, 3, unit="mm/s")) == "foot 4 too fast"
     assert words_of(page, "1111", lack("body_speed", 4, 6, unit="mm/s")) == "body too fast"
-    assert words_of(page, "1111", lack("something new", 4, 6)) == "a limit is missed"
+    assert words_of(page, "1111", lack("something new", 4, 6)) == "a limit is not kept"
 
 
 @pytest.mark.parametrize(
     ("words", "short"),
     [
         ("foot 2: reach 3.1 mm short", "foot 2"),
-        ("1 and 3 in the air", "1 and 3"),
+        ("feet 1 and 3 in the air", "feet 1 and 3"),
         ("margin 0.8 mm short", "margin"),
         ("foot 4 too fast", "foot 4"),
         ("feet 1 and 2 too close", "feet 1 and 2"),
         ("body height off by 2.0 mm", "body height"),
-        ("a limit is missed", "a limit is missed"),
+        ("a limit is not kept", "a limit is not kept"),
     ],
 )
 def test_where_there_is_no_room_a_flag_keeps_whole_words(page: Page, words: str, short: str) -> None:
@@ -147,7 +147,7 @@ def test_two_feet_in_the_air_are_hatched_outlined_and_flagged_while_the_hand_dra
     page.mouse.down()
     page.mouse.move(boxes[1]["x"] + 3, boxes[1]["y"] + 5, steps=4)
     flag = page.locator(".phase-flag:visible")
-    expect(flag).to_have_text("1 and 3 in the air")
+    expect(flag).to_have_text("feet 1 and 3 in the air")
     expect(page.locator(".cell[data-lack]")).to_have_count(8)
     expect(page.locator(".cell[data-lack]").first).to_have_attribute("title", re.compile("Balance is"))
     outline = page.locator(".phase-box:visible").bounding_box()

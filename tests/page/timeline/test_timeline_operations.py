@@ -214,7 +214,7 @@ def test_repeating_the_whole_is_more_iterations(timeline: TimelinePage) -> None:
     timeline.item("Repeat").click()
     asked = timeline.page.get_by_role("dialog", name="Repeat")
     expect(asked.get_by_role("status")).to_contain_text(
-        "2 iterations. The timeline goes from 45 to 85 samples (33.6 s)"
+        "2 iterations. The length of the timeline changes from 45 to 85 samples (33.6 s)"
     )
     asked.get_by_role("spinbutton").press("Enter")
     wait_for(lambda: len(timeline.feet(gait)[0]) == 85, "it is run through twice")
@@ -230,7 +230,7 @@ def test_a_stretch_takes_a_factor_and_keeps_every_swing(timeline: TimelinePage) 
     asked.get_by_label("Factor").fill("1.5")
     expect(asked.get_by_label("New length")).to_have_value("36")
     asked.get_by_label("New length").fill("3")
-    expect(asked.get_by_role("status")).to_contain_text("would vanish")
+    expect(asked.get_by_role("status")).to_contain_text("would disappear")
     expect(asked.get_by_role("button", name="Apply")).to_have_attribute("aria-disabled", "true")
     asked.get_by_label("New length").fill("0")
     expect(asked.get_by_role("status")).to_contain_text("must lie between 1 and 2000 samples")
@@ -246,13 +246,13 @@ def test_what_a_locked_cell_forbids_says_which_and_does_nothing(timeline: Timeli
     line.hover()
     expect(line).to_have_attribute("aria-disabled", "true")
     expect(line).to_have_attribute(
-        "aria-description", re.compile("Foot 1, sample 6 is locked and would change")
+        "aria-description", re.compile("Foot 1, sample 6 is locked, but would change")
     )
     timeline.press("Escape", "Delete")
-    timeline.said("Foot 1, sample 6 is locked and would change: unlock it first.")
+    timeline.said("Foot 1, sample 6 is locked, but would change. Unlock this cell first.")
     line = timeline.item("Remove samples")
     expect(line).to_have_attribute(
-        "aria-description", re.compile("Foot 1, sample 6 is locked: unlock all cells")
+        "aria-description", re.compile("Foot 1, sample 6 is locked. Unlock all cells")
     )
     timeline.press("Escape")
     assert timeline.feet(gait) == FOUR
@@ -293,9 +293,9 @@ def test_a_copy_that_ends_with_the_timeline_is_cut_and_says_so(timeline: Timelin
     timeline.select((4, 17), (4, 21))
     timeline.press("Control+d")
     timeline.becomes(gait, *painted(FOUR, 4, 22, 24, "0"))
-    timeline.said("The last 2 samples would lie after the end and are left out.")
+    timeline.said("The last 2 samples do not fit into the timeline and will be left out.")
     timeline.press("Control+d")
-    timeline.said("There is no room after it")
+    timeline.said("so a copy does not fit")
 
 
 def test_cut_duplicate_and_delete_have_their_keys(timeline: TimelinePage) -> None:

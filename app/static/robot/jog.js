@@ -18,8 +18,8 @@ import { handlesOf, PARTS, withStep } from "./jog_steps.js";
 
 const STEP_MM = { least: 0.1, most: 10, first: 2 };
 const BEGINS = {
-  measured: "The steps begin at the present strokes of the motors.",
-  standing: "No strokes are known: the steps begin with every motor at 8 mm.",
+  measured: "The jog starts at the present strokes of the motors.",
+  standing: "The present strokes are not known. The jog starts with every motor at 8 mm.",
 };
 
 const robotOf = ({ view }) => view?.document.robot ?? "deltawalker";
@@ -41,7 +41,8 @@ function build(change) {
 
 function choiceRow({ parts, foot, size }) {
   return h("div", { class: "jog-choice" }, h("div", { class: "jog-parts", role: "group", "aria-label": "What to jog" }, ...parts), foot,
-    h("label", { title: `Length of one step, ${STEP_MM.least} to ${STEP_MM.most} mm` }, h("span", { text: "Step" }), h("span", { class: "box", data: { unit: "mm" } }, size)));
+    h("label", { title: `How far − and + move the target, ${STEP_MM.least} to ${STEP_MM.most} mm` },
+      h("span", { text: "Step" }), h("span", { class: "box", data: { unit: "mm" } }, size)));
 }
 
 function showChoice({ parts, foot }, { part, foot: chosen }, feet) {
@@ -54,10 +55,14 @@ function showChoice({ parts, foot }, { part, foot: chosen }, feet) {
 function targetText({ wired, moves, seconds: takes, stop_seconds: stop, margin_mm: margin, from, residual_mm: residual }, steps) {
   if (!steps.length) return BEGINS[from] ?? "";
   const off = Math.max(0, ...(residual ?? []).map(Math.abs));
-  if (!wired) return `Shown in the preview only; motors that are coupled cannot make this exactly: strokes are up to ${fixed(off)} mm off.`;
+  if (!wired) {
+    return "Only the 3D preview shows this target, because this program cannot move this robot. "
+      + `The coupled motors miss the strokes of the target by up to ${fixed(off)} mm.`;
+  }
   if (!moves) return "";
-  const balance = margin === null ? "" : ` Balance ${fixed(margin)} mm.`;
-  return `${counted(moves, "move")}, about ${seconds(takes)} s; Stop acts within ${seconds(stop)} s.${balance}`;
+  const balance = margin === null ? "" : ` Stability margin ${fixed(margin)} mm.`;
+  return `${counted(moves, "move")}, about ${seconds(takes)} s. `
+    + `Stop takes effect within ${seconds(stop)} s.${balance}`;
 }
 
 const findingRow = ({ severity, sentence }) => h("li", { data: { toneText: severity === "error" ? "bad" : "caution" }, text: sentence });
@@ -83,7 +88,7 @@ function asking(own) {
 
 function moving(store, own, body) {
   return attempt(async () => {
-    const by = await needOperator(store, "What the robot does is kept with the name of who did it.");
+    const by = await needOperator(store, "The studio records your name with every movement that you start.");
     const { answer } = own.state;
     if (!by || !answer) return;
     acceptRobot(store, await api.robot("jog", { ...body(), seen_mm: answer.target_mm, by }));
@@ -105,7 +110,8 @@ export function jogPart(store, edits) {
   const body = () => ({ robot: robotOf(store.state), steps: own.state.steps });
   const ask = asking(own);
   let sent = null;
-  const element = h("details", { class: "more jog", role: "group", "aria-label": "Jog" }, h("summary", { text: "Jog: move a motor, a foot or the body by hand" }),
+  const element = h("details", { class: "more jog", role: "group", "aria-label": "Jog" },
+    h("summary", { text: "Jog: move a motor, a foot or the body in small steps" }),
     h("div", {}, choiceRow({ ...parts, size }), rows.element, h("div", { role: "status", "aria-label": "Jog findings" }, parts.findings), parts.target,
       h("div", { class: "buttons" }, parts.move, parts.back), parts.why, poseToSegment(store, edits)));
 
@@ -113,7 +119,7 @@ export function jogPart(store, edits) {
   size.addEventListener("change", () => {
     const requested = Number(size.value);
     if (requested >= STEP_MM.least && requested <= STEP_MM.most) own.set({ size: requested });
-    else toast(`The step is ${size.value || "nothing"}; it must lie between ${STEP_MM.least} and ${STEP_MM.most} mm. It keeps its value.`);
+    else toast(`Enter a step between ${STEP_MM.least} and ${STEP_MM.most} mm. The previous value is kept.`);
     size.value = String(own.state.size);
   });
   onPress(parts.move, moving(store, own, body), (why) => toast(why));
@@ -140,7 +146,8 @@ export function jogPart(store, edits) {
       setText(parts.target, answer ? targetText(answer, now.steps) : "");
       setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
     }
-    setAllowed(parts.back, now.steps.length ? null : "The target is the present pose of the robot.");
+    setAllowed(parts.back, now.steps.length ? null : "The target is already the present pose of the robot.",
+      "Make the present pose of the robot the target again. The robot does not move");
     const { target_mm: pose = null, wired = false } = answer ?? now.answer ?? {};
     store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null, wired } });
     return undefined;
@@ -151,16 +158,23 @@ export function jogPart(store, edits) {
   return element;
 }
 
-const HELP = "Adds a segment to the segment table in which every foot goes to the target, or to where the robot stands; Undo takes it back";
+const HELP = "Add a segment to the end of the segment table. In this segment every foot moves to the target, "
+  + "or to the present pose if there is no other target";
 
 /** Why the pose cannot be taken; null where it can. */
 function whyNot(state) {
   const document = shownDocument(state);
   if (!document) return "No gait is selected.";
-  if (isSequence(document)) return "A sequence follows its parts. Choose one of its gaits.";
-  if (!document.segment_table) return "This gait has no segment table. Make one under Segments, or choose a gait made by hand.";
-  if (segmentDraftOf(state).steps.length) return "The segment table does not fit together yet. Mend it under Segments first.";
-  return state.jog?.pose_mm ? null : "The target cannot be reached, so there is no pose to take.";
+  if (isSequence(document)) return "A sequence has no segment table of its own. Choose one of its gaits.";
+  if (!document.segment_table) {
+    return "This gait has no segment table. "
+      + "Make a table in the view Segments, or choose a gait of the group By hand.";
+  }
+  if (segmentDraftOf(state).steps.length) {
+    return "Some segments of the segment table do not fit together. "
+      + "Repair the table in the view Segments first.";
+  }
+  return state.jog?.pose_mm ? null : "The robot cannot reach the target. Choose another target.";
 }
 
 /** Builds the button; `edits` makes the change an edit of the gait. */
@@ -169,8 +183,10 @@ function poseToSegment(store, edits) {
   const take = attempt(async () => {
     const [document, { selected: gait }] = [shownDocument(store.state), store.state];
     const { table, name, segment, sentences } = await api.poseTable({ document, strokes_mm: store.state.jog.pose_mm });
-    edits.edit((now) => ({ ...now, segment_table: table }), `Take ${name} as segment ${segment}`, { drawing: true, gait });
-    toast([`${name} is segment ${segment} of the segment table.`, ...sentences].join(" "), { of: "studio" });
+    const label = `Add ${name} as segment ${segment}`;
+    edits.edit((now) => ({ ...now, segment_table: table }), label, { drawing: true, gait });
+    const added = `“${name}” was added to the segment table as segment ${segment}.`;
+    toast([added, ...sentences].join(" "), { of: "studio" });
   });
   onPress(button, take, (why) => toast(why));
   store.watch((state) => [state.view, state.pending, state.gesture, state.segmentDrafts, state.jog], (state) => setAllowed(button, whyNot(state), HELP));

@@ -33,7 +33,9 @@ function whyNot(handle, row, by) {
   if (!row) return "The studio has not answered yet.";
   const [least, most] = [row.least_mm - row.target_mm, row.most_mm - row.target_mm];
   if (by >= least - ROUNDING_MM && by <= most + ROUNDING_MM) return null;
-  return `${handleName(handle)} can go by ${fixed(least)} to ${fixed(most)} mm from here. Choose a shorter step.`;
+  const range = `${fixed(least)} to ${fixed(most)} mm`;
+  return `${handleName(handle)}: from its present value the target can change by ${range}. `
+    + "Choose a shorter step.";
 }
 
 /**
@@ -52,7 +54,9 @@ function jogRow(step) {
       setText(name, shortName(handle));
       for (const [button, sign, word] of [[less, -1, "minus"], [more, 1, "plus"]]) {
         setAttribute(button, "aria-label", `${handleName(handle)} ${word}`);
-        setAllowed(button, whyNot(handle, row, sign * size), `${handleName(handle)} by ${fixed(sign * size)} mm: moves the target only`);
+        const help = `${handleName(handle)}: change the target by ${fixed(sign * size)} mm. `
+          + "The robot does not move yet";
+        setAllowed(button, whyNot(handle, row, sign * size), help);
       }
       const isMoved = row && Math.abs(row.target_mm - row.start_mm) > ROUNDING_MM;
       setText(number, row ? `${isMoved ? `${fixed(row.start_mm)} → ` : ""}${fixed(row.target_mm)} mm` : "–");

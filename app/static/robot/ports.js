@@ -31,7 +31,11 @@ function choices({ ports, last }, device) {
  */
 export function portChooser(store, connect) {
   const select = h("select", { "aria-label": "Device" });
-  const address = h("input", { "aria-label": "Address", title: "A serial device such as /dev/ttyACM0, or socket://HOST:PORT", placeholder: "/dev/… or socket://HOST:PORT", spellcheck: "false", autocomplete: "off", hidden: true });
+  const title = "Enter a serial device such as /dev/ttyACM0, or a network address socket://HOST:PORT";
+  const address = h("input", {
+    "aria-label": "Address", title, placeholder: "/dev/… or socket://HOST:PORT",
+    spellcheck: "false", autocomplete: "off", hidden: true,
+  });
   const [words, again] = [h("span"), h("button", { text: "Connect there" })];
   const offer = h("div", { class: "offer", role: "status", "aria-label": "Where the robot is now", hidden: true }, words, again);
   let found = { ports: [], last: null, again: null };
@@ -80,7 +84,8 @@ export function portChooser(store, connect) {
     const fixed = ["ready", "connecting"].includes(robot?.link);
     if (fixed) chosen = null;
     select.disabled = fixed;
-    setAttribute(select, "title", fixed ? "Disconnect before you choose another robot" : "Which robot to connect");
+    const title = fixed ? "Disconnect before you choose another robot" : "Choose the robot to connect";
+    setAttribute(select, "title", title);
     clearInterval(timer);
     timer = robot?.link === "lost" ? setInterval(poll, POLL_MS) : null;
     render();

@@ -21,13 +21,16 @@ import { isOfRunRange, runRangeOf, runRangePart } from "./run_range.js";
 import { sendControl } from "./send.js";
 import { strokeBars } from "./strokes.js";
 
-const CONNECT_WARNING = "Connecting resets the board: its motors may move for about 8 s. Keep hands away.";
+const CONNECT_WARNING = "Connecting resets the robot's board. The motors may move for about 8 s. "
+  + "Keep your hands away.";
 
 const bound = (limit) => (limit === null || limit === undefined ? "a few seconds" : `${seconds(limit)} s`);
 
 /** Stop's worst case, in one short figure. */
 const stopSentence = (limit) => `Stop takes effect within ${bound(limit)}. The power switch is the emergency stop.`;
-const STOP_HELP = "Stop is a software stop over the cable: it takes effect after the move that is running, at worst after the time given here.";
+const STOP_HELP = "The studio sends Stop over the cable. The robot first ends its present move. "
+  + "It stops at the latest after the time given here.";
+const CLEAR_HELP = "Confirm that you have seen the stop or the fault. The robot does not move";
 
 function act(store, verb, extra = () => ({})) {
   return attempt(async () => {
@@ -49,8 +52,9 @@ function way(step, ...children) {
 /** Why the check names another time for Stop; null where it names the same. */
 function checkedStopText({ stop_seconds: stop, checked_stop_seconds: checked, scan_seconds: scan }) {
   if (seconds(stop) === seconds(checked)) return null;
-  const why = scan === null ? "of all waypoints" : `with the slowest scan known; this robot's took ${seconds(scan)} s`;
-  return `The check says ${seconds(checked)} s, ${why}.`;
+  const why = scan === null ? "it counts all waypoints of the plan."
+    : `it assumes the slowest error scan of the firmware. This robot's error scan took ${seconds(scan)} s.`;
+  return `Check gives ${seconds(checked)} s, because ${why}`;
 }
 
 /** What will move, how long, and how soon it stops. */
@@ -78,19 +82,22 @@ function build(store) {
     if (await confirmAction("Reset the robot?", "Reset moves all 12 motors to 0.5 mm, at full speed and at the same time.", "Move all motors to 0.5 mm")) await act(store, "reset")();
   });
   const arm = attempt(async () => {
-    if (await needOperator(store, "Everyone sees who arms the robot and is in control of it.")) await act(store, "arm")();
+    if (await needOperator(store, "All users see who has armed the robot.")) await act(store, "arm")();
   });
   return {
     ports, connect,
     dot: h("span", { class: "dot" }), word: h("b"), sentence: h("p"),
     disconnect: robotButton(store, "Disconnect", "disconnect"),
-    arm: robotButton(store, "Arm", "arm", { act: arm, help: "Allow this robot to be moved from here" }),
-    clear: robotButton(store, "Clear", "clear", { help: "Acknowledge the stop or fault; nothing moves" }),
-    reset: robotButton(store, "Reset", "reset", { act: reset, help: "Moves all motors to 0.5 mm" }),
+    arm: robotButton(store, "Arm", "arm", { act: arm, help: "Allow the studio to move this robot" }),
+    clear: robotButton(store, "Clear", "clear", { help: CLEAR_HELP }),
+    reset: robotButton(store, "Reset", "reset", { act: reset, help: "Move all motors to 0.5 mm at full speed" }),
     armed: h("span"), connectNote: h("p", { class: "why" }), armNote: h("p", { class: "why" }), sendNote: h("p", { class: "why" }),
     summary: h("dl", { class: "summary" }),
     last: h("p", { class: "why number" }),
-    runs: h("button", { class: "link", text: "Open Runs", title: "Every run that was kept: look at one, or compare two", hidden: true, on: { click: () => openDrawer("runs") } }),
+    runs: h("button", {
+      class: "link", text: "Open Runs", title: "Show all recorded runs. You can compare two runs", hidden: true,
+      on: { click: () => openDrawer("runs") },
+    }),
     record: h("p", { class: "why", role: "status", "aria-label": "Record", data: { toneText: "caution" } }),
     bars: strokeBars(),
     stopText: h("p", { class: "stop-text", title: STOP_HELP }),
@@ -103,7 +110,8 @@ function assemble({ store, edits, playback }, parts, send) {
   const start = way(3, parts.summary, runRangePart(store, playback));
   const before = h("div", { class: "before-run" }, h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), parts.last, parts.runs,
     h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start));
-  const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", h("span", { text: "bar measured, line target, mm" })), parts.bars.element);
+  const key = h("span", { text: "bar: measured, line: target, in mm" });
+  const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", key), parts.bars.element);
   const more = h("div", { class: "after-run" }, jogPart(store, edits), robotFaults(store));
   byId("robot").append(leasePart(store), before, runningPart(store), parts.record, strokes, more, robotLog(store));
   const acts = h("div", { class: "solve" }, parts.connect.button, parts.clear.button, parts.arm.button);
@@ -120,7 +128,7 @@ function showSteps(parts, ways, state) {
   const armed = ready && !["unknown", "disarmed", "stopped", "fault", "done"].includes(robot.robot);
   const marks = { connect: ready, arm: armed, start: planIsOn(robot) || (armed && hasRun(state)) };
   const next = Object.keys(marks).find((name) => !marks[name]);
-  setText(parts.armed, armed ? "Armed: it moves when a run is sent." : "Not armed.");
+  setText(parts.armed, armed ? "Armed: the robot moves when you send a run." : "Not armed.");
   const mayClear = robot?.allowed?.clear === null;
   parts.connect.button.classList.toggle("primary", next === "connect" && !mayClear);
   parts.clear.button.classList.toggle("primary", mayClear);
@@ -138,7 +146,8 @@ function showRobot(parts, ways, state) {
   parts.dot.dataset.tone = robotTone(robot);
   setText(parts.word, robot ? `${robot.robot}${robot.emulated ? " · emulated robot" : ""}` : "unknown");
   const before = robot?.previous_run;
-  const broken = !ready && before?.state === "interrupted" ? `The last run, ${before.gait_name}, was interrupted. ${before.sentence}` : null;
+  const broken = !ready && before?.state === "interrupted"
+    ? `The last run, of “${before.gait_name}”, was interrupted. ${before.sentence}` : null;
   setText(parts.sentence, [robot?.sentence, broken, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${capital(robot.stop_text)}.` : null].filter(Boolean).join(" "));
   for (const name of ["connect", "disconnect", "arm", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
@@ -157,8 +166,12 @@ function showRobot(parts, ways, state) {
 /** The last run in a line: how far it came, and how long it took. */
 function lastRun(robot) {
   const [run, before] = [robot?.run, robot?.previous_run];
-  if (run) return `${run.gait_name ?? "Run"}: ${run.reached} of ${run.count} waypoints reached in ${seconds(run.elapsed)} s, the way to the start pose included.`;
-  return before ? `Last run: ${before.gait_name}, ${before.state}.` : "";
+  const name = (gait) => `Last run${gait ? ` of “${gait}”` : ""}`;
+  if (run) {
+    return `${name(run.gait_name)}: ${run.reached} of ${run.count} waypoints reached `
+      + `in ${seconds(run.elapsed)} s, including the moves to the start pose.`;
+  }
+  return before ? `${name(before.gait_name)}: ${before.state}.` : "";
 }
 
 function whyNotSend(state) {
@@ -195,7 +208,7 @@ function followSummary(store) {
 /** Builds the section; returns what Esc may cancel. */
 export function mountRobot(store, edits, playback) {
   const send = sendControl({
-    prepare: async () => Boolean(await needOperator(store, "The run is kept with the name of who started it.")),
+    prepare: async () => Boolean(await needOperator(store, "The studio records your name with this run.")),
     send: attempt(async () => {
       const { selected, runSummary, operator } = store.state;
       acceptRobot(store, await api.robot("send", { gait: selected, waypoints_hash: runSummary.waypoints_hash, from: runSummary.from, iterations: runSummary.iterations, by: operator }));
@@ -211,7 +224,8 @@ export function mountRobot(store, edits, playback) {
   store.watch(({ robot, view, runSummary, selected, runRange, connected }) => [robot, view, runSummary, selected, runRange, connected], (state) => {
     const reason = whyNotSend(state);
     send.allow(reason);
-    setText(parts.sendNote, reason ?? "Hold it, or Enter, for a second; or click for a countdown.");
+    setText(parts.sendNote, reason ?? "Hold the button or Enter for one second. "
+      + "Or click once to start a countdown.");
     parts.summary.replaceChildren(...summaryRows(state));
     setText(parts.stopText, stopSentence(stopLimit(state)));
     parts.summary.hidden = parts.summary.childElementCount === 0;

@@ -6,17 +6,17 @@ import { acceptRobot } from "../state/store.js";
 import { attempt, toast } from "../lib/toasts.js";
 
 const FAULTS = {
-  stall: "stall: the program dies, the motors go on",
-  unplug: "unplug: the cable comes out",
+  stall: "stall: the firmware hangs, the motors continue",
+  unplug: "unplug: the cable is pulled out",
   reset: "reset: the board restarts",
   drop: "drop: bytes get lost",
   garble: "garble: bits flip",
-  split: "split: bytes come in pieces",
-  delay: "delay: bytes come late",
+  split: "split: messages arrive in pieces",
+  delay: "delay: bytes arrive late",
   "weak-motor": "weak-motor: motor 8 is slow",
   "stuck-motor": "stuck-motor: motor 5 does not move",
-  "dead-pot": "dead-pot: motor 2 reads a constant",
-  noise: "noise: readings are noisy",
+  "dead-pot": "dead-pot: sensor of motor 2 stays constant",
+  noise: "noise: sensor readings are noisy",
 };
 
 /** Builds the list; a fault that lasts goes on until it is mended or the robot is connected anew. */
@@ -26,7 +26,8 @@ export function robotFaults(store) {
   const mend = h("button", { text: "Repair all" });
   const element = h("details", { class: "more robot-faults" }, h("summary", { text: "Faults of the emulated robot" }),
     h("div", {}, choice, h("div", { class: "buttons" }, strike, mend),
-      h("p", { class: "why", text: "Stall, unplug and reset happen once; the others last until they are repaired." })));
+      h("p", { class: "why", text: "Stall, unplug and reset happen once. "
+        + "Every other fault stays until you press Repair all or connect again." })));
   const ask = (name, done) => attempt(async () => {
     acceptRobot(store, await api.robot("fault", { name: name() }));
     toast(done(), { of: "studio" });

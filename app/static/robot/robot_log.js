@@ -22,7 +22,9 @@ export function robotLog(store) {
     if (!element.open) return;
     const { transitions } = await api.transitions();
     list.replaceChildren(...transitions.slice(-MOST).reverse().map(row));
-    if (!transitions.length) list.replaceChildren(h("li", { class: "quiet", text: "Nothing yet. Every change of the connection and the robot is listed here, with its cause." }));
+    const none = "Nothing has happened yet. "
+      + "This list shows every change of the connection and of the robot, with the cause.";
+    if (!transitions.length) list.replaceChildren(h("li", { class: "quiet", text: none }));
   });
   element.addEventListener("toggle", read);
   store.watch(({ robot }) => [robot?.link, robot?.robot, robot?.sentence], read);

@@ -34,12 +34,14 @@ function showBeginnings(select, places) {
   if (select.dataset.known === known) return;
   select.dataset.known = known;
   select.replaceChildren(...places.map((place) => h("option", { value: String(place.waypoint), text: placeName(place) })),
-    ...(places.length > 1 ? [h("option", { value: HERE, text: "here: nearest to the playhead" })] : []));
+    ...(places.length > 1 ? [h("option", { value: HERE, text: "waypoint nearest to the playhead" })] : []));
 }
 
 /** Builds the two fields above the run's summary. */
 export function runRangePart(store, playback) {
-  const from = h("select", { "aria-label": "Run from", title: "Where the run begins: a waypoint with all feet down. The robot goes there slowly first" });
+  const title = "The waypoint where the run begins. The robot first moves to this waypoint slowly. "
+    + "You can choose only waypoints with all feet on the ground";
+  const from = h("select", { "aria-label": "Run from", title });
   const times = h("input", { type: "number", min: "1", max: String(MOST_ITERATIONS), step: "1", value: "1", "aria-label": "Times to run" });
   const element = h("div", { class: "run-range" }, h("label", {}, h("span", { text: "Start at" }), from), h("label", {}, h("span", { text: "Repeat" }), times));
   from.addEventListener("change", () => {
@@ -63,7 +65,8 @@ export function runRangePart(store, playback) {
     times.readOnly = Boolean(reason);
     setAttribute(times, "aria-disabled", reason ? "true" : null);
     setAttribute(times, "aria-description", reason);
-    setAttribute(times, "title", reason ?? `How many times the gait is run, 1 to ${MOST_ITERATIONS}`);
+    const help = `How often the robot walks the gait, 1 to ${MOST_ITERATIONS} times`;
+    setAttribute(times, "title", reason ?? help);
     if (document.activeElement !== times) times.value = String(runRangeOf(state).iterations);
   });
   return element;

@@ -8,15 +8,16 @@ import { whyNotHeld } from "../state/lease.js";
 import { acceptRobot, planIsOn, runIsOn, shownDocument } from "../state/store.js";
 
 const TICK_MS = 200;
-const UNKNOWN = "The studio does not answer: what the robot does now is not known. The power switch stops it.";
-const PAUSE_HELP = "The robot pauses at the next pose with all feet down.";
+const UNKNOWN = "The studio does not answer, so the page does not know what the robot does now. "
+  + "The robot's power switch stops the robot.";
+const PAUSE_HELP = "The robot pauses at the next waypoint with all feet on the ground.";
 
 /** What the robot does now, in a sentence. */
 function nowText(state) {
   const { robot, view, selected } = state;
   const { run } = robot;
   if (robot.robot !== "moving") return robot.sentence;
-  if (run.phase === "start pose") return "Moving slowly to the start pose.";
+  if (run.phase === "start pose") return "The robot moves slowly to the start pose.";
   const plan = view?.plan;
   const sample = run.gait === selected && plan ? plan.times.findLastIndex((time) => time <= (run.plan_time ?? 0) + 1e-6) : -1;
   const document = shownDocument(state);
@@ -26,15 +27,17 @@ function nowText(state) {
   // A pose gait's foot is in the air in both of its moves: one begins with it down, one ends with it down.
   const isUp = (row) => row[next] === "0" || (isOfPoses && row[sample] === "0");
   const feet = rows.flatMap((row, foot) => (isUp(row) ? [foot + 1] : []));
-  if (!feet.length) return "All feet stand, the body moves.";
-  return feet.length === 1 ? `Foot ${feet[0]} swings, the others stand.` : `Feet ${feet.join(" and ")} swing, the others stand.`;
+  if (!feet.length) return "All feet are on the ground. The body moves.";
+  const swinging = feet.length === 1 ? `Foot ${feet[0]} swings` : `Feet ${feet.join(" and ")} swing`;
+  return `${swinging}. The other feet are on the ground.`;
 }
 
 /** A note on a run whose gait is no longer as it was approved and sent. */
 function laterEdit({ robot, view, selected, pending, gesture }) {
   if (!runIsOn(robot) || !view || robot.run?.gait !== selected) return "";
   const isSame = !pending.length && !gesture && view.approval?.waypoints_hash === robot.run.waypoints_hash;
-  return isSame ? "" : "The run goes on with the approved version; what you see is a later edit.";
+  return isSame ? "" : "The run continues with the approved version of the gait. "
+    + "The page shows a later edit.";
 }
 
 function actButton(store, text, verb, help) {
@@ -63,7 +66,7 @@ export function runningPart(store) {
     if (!planIsOn(robot)) return;
     if (!connected) {
       setText(left, "–");
-      setText(done, `last heard at ${clockTime(heard)}`);
+      setText(done, `last answer at ${clockTime(heard)}`);
       return;
     }
     const since = robot.robot === "moving" ? (performance.now() - known.at) / 1000 : 0;

@@ -21,7 +21,9 @@ export function sendControl({ prepare, send }) {
   const button = h("button", { class: "primary wide hold", "data-robot": true }, h("span", { class: "fill" }), h("span", { text: "Send to robot" }));
   const number = h("b", { text: String(COUNTDOWN_S) });
   const cancelButton = h("button", { text: "Cancel" });
-  const countdown = h("div", { class: "countdown", role: "group", "aria-label": "Countdown", hidden: true }, number, h("span", { text: "The robot starts to move at 0." }), cancelButton);
+  const words = h("span", { text: "The robot starts to move when the countdown reaches 0." });
+  const countdown = h("div", { class: "countdown", role: "group", "aria-label": "Countdown", hidden: true },
+    number, words, cancelButton);
   let timer = null;
   let holdTimer = null;
   let held = false;
@@ -108,7 +110,8 @@ export function sendControl({ prepare, send }) {
     allow(why) {
       reason = why;
       button.classList.toggle("primary", !why);
-      setAllowed(button, why, "Hold it, or Enter, for a second; or click for a countdown that can be cancelled");
+      setAllowed(button, why, "Hold the button or Enter for one second. "
+        + "Or click once to start a countdown that you can cancel");
       if (!why) return;
       cancel();
       letGo();

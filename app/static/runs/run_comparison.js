@@ -29,13 +29,14 @@ const strokeLine = (motor) => ({
 
 /** "Waypoint 12", and which lap where the waypoints were gone through several times. */
 const placeText = ({ waypoints, laps }, index) =>
-  `waypoint ${waypoints[index] + 1}${laps.at(-1) > 0 ? ` of lap ${laps[index] + 1}` : ""}`;
+  `waypoint ${waypoints[index] + 1}${laps.at(-1) > 0 ? `, iteration ${laps[index] + 1}` : ""}`;
 
 /** What is compared: "up to waypoint 9, the last that both reached". */
 function extentText(both) {
   const { waypoints, runs, apart_mm: apart } = both;
   const stopped = runs.some(({ reached, count }) => reached !== count);
-  const end = `Aligned by waypoint: ${counted(waypoints.length, "waypoint")} that both reached, up to ${placeText(both, waypoints.length - 1)}`;
+  const [count, last] = [counted(waypoints.length, "waypoint"), placeText(both, waypoints.length - 1)];
+  const end = `The comparison covers the ${count} that both runs reached, up to ${last}`;
   const other = apart > SAME_MM ? ` The two runs had different waypoints: their commanded strokes differ by up to ${fixed(apart, 2)} mm.` : "";
   return `${end}${stopped ? ", where the shorter run ended" : ""}.${other}`;
 }
@@ -47,7 +48,7 @@ function plotPart(both) {
   const show = () => {
     const line = lines[Number(select.value)];
     place.replaceChildren(waypointPlot({
-      title: `${line.name}, ${line.unit}, over waypoints`, unit: line.unit,
+      title: `${line.name}, ${line.unit}, at each waypoint`, unit: line.unit,
       places: both.waypoints.map((_, index) => placeText(both, index)),
       series: ["this", "other"].map((kind, index) => ({ kind, values: line.of(both.runs[index]) })),
     }));
@@ -70,13 +71,18 @@ function tables({ runs: [one, other] }) {
   const times = ({ figures, move_seconds: moves }) => [figures.seconds, figures.estimate, Math.max(...moves), figures.start_seconds];
   const largest = (figures) => [figures.largest_mm, Math.max(...figures.foot_largest_mm), figures.body_largest_mm];
   return [
-    figureTable("Times, s", "For the waypoints that both runs reached: time from the first message to the last arrival, time that the firmware's ramps predict, and the slowest move",
+    figureTable("Times, s", "Only the waypoints that both runs reached. "
+      + "Duration: from the first message to the last arrival. "
+      + "Expected: the duration that the firmware's speed ramps predict",
       head, rowsOf(words(["duration", "expected", "slowest move", "to the start pose"]), times(one), times(other), 1)),
-    figureTable("These waypoints, mm", "Largest errors of any motor, of any foot, and of the body at the waypoints that both reached",
+    figureTable("Largest errors, mm", "Largest error of any motor, any foot and the body. "
+      + "Only the waypoints that both runs reached",
       head, rowsOf(words(["motors, largest", "feet, largest", "body, largest"]), largest(a), largest(b))),
-    figureTable("Feet, largest, mm", "Distance of each foot at arrivals from where the waypoint puts it",
+    figureTable("Feet, largest, mm", "Largest distance of each foot from its planned position. "
+      + "Only the waypoints that both runs reached",
       head, rowsOf(a.foot_largest_mm.map((_, foot) => footName(foot)), a.foot_largest_mm, b.foot_largest_mm)),
-    figureTable("Motors, largest, mm", "Measured minus commanded stroke at arrivals",
+    figureTable("Motors, largest, mm", "Largest difference between measured and commanded stroke. "
+      + "Only the waypoints that both runs reached",
       head, rowsOf(a.motor_largest_mm.map(motorName), a.motor_largest_mm, b.motor_largest_mm)),
   ];
 }
@@ -89,7 +95,8 @@ function tables({ runs: [one, other] }) {
 export function runComparison(both) {
   const text = h("p", { class: "why", role: "status", "aria-label": "Comparison" });
   if (!both.waypoints.length) {
-    setText(text, "There is no waypoint that both runs reached, so there is nothing to compare. Choose another run.");
+    setText(text, "The two runs cannot be compared, because they have reached no waypoint in common. "
+      + "Choose another run.");
     return [text];
   }
   setText(text, extentText(both));

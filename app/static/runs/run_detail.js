@@ -28,7 +28,8 @@ function stateLog({ states }) {
 }
 
 function noteField(run) {
-  const field = h("textarea", { "aria-label": "Note", rows: "2", maxlength: "4000", placeholder: "Note: floor, load, what was seen" });
+  const placeholder = "Note, for example the floor, the load or what you saw";
+  const field = h("textarea", { "aria-label": "Note", rows: "2", maxlength: "4000", placeholder });
   field.value = run.note;
   field.addEventListener("change", attempt(async () => {
     await api.noteRun(run.id, field.value);
@@ -38,11 +39,13 @@ function noteField(run) {
 }
 
 function deleteButton(run, gone, back) {
-  const button = h("button", { class: "link", text: "Delete", title: "Takes this run out of the list; it can be brought back" });
+  const title = "Remove this run from the list. Undo brings the run back";
+  const button = h("button", { class: "link", text: "Delete", title });
   onPress(button, attempt(async () => {
     await api.deleteRun(run.id);
     gone();
-    toast(`The run of ${run.gait_name} is deleted.`, { action: { label: "Undo", act: attempt(async () => { await api.restoreRun(run.id); back(run.id); }) } });
+    const undo = attempt(async () => { await api.restoreRun(run.id); back(run.id); });
+    toast(`The run of “${run.gait_name}” is deleted.`, { action: { label: "Undo", act: undo } });
   }));
   return button;
 }
@@ -51,6 +54,9 @@ const ON = ["moving", "pausing", "paused"];
 
 /** How the run ended: the cause of the first state that ended it. */
 const endOf = (run) => (run.state === "running" ? null : run.states.find(({ link, robot }) => link !== "ready" || !ON.includes(robot))?.cause) ?? run.sentence;
+
+const holeText = ({ left_out: bytes }) =>
+  `The record of this run is not complete. The disk was full, so ${bytes} bytes were not recorded.`;
 
 /** The choice of another run, and the comparison of the two. */
 function comparing(run, others, tables) {
@@ -85,17 +91,22 @@ function recordedPart(id, open) {
  */
 export async function runDetail(id, { leave, open, standing, recorded }) {
   const [run, { runs: others }] = await Promise.all([api.keptRun(id), api.runs({ most: OTHERS })]);
-  const tables = h("div", { class: "run-tables" }, ...(run.errors ? errorTables(run.errors) : [h("p", { class: "why", text: "This run was kept without its plan: its errors are not known." })]));
+  const noPlan = "No plan was recorded with this run, so its errors are not known.";
+  const errors = run.errors ? errorTables(run.errors) : [h("p", { class: "why", text: noPlan })];
+  const tables = h("div", { class: "run-tables" }, ...errors);
   const word = h("span", { class: "word", text: run.state });
   const over = h("p", { class: "why", role: "status" });
   const element = h("div", { class: "run-detail" },
     h("button", { class: "link", text: "All runs", on: { click: leave } }),
     h("div", { class: "run-line run-title" }, h("span", { class: "dot", data: { tone: runTone(run) } }), h("b", { text: run.gait_name }), word),
     h("p", { class: "quiet", text: endOf(run) }),
-    run.left_out ? h("p", { class: "why", data: { toneText: "caution" }, text: `The record has a hole: ${run.left_out} bytes were not kept, as the disk was full.` }) : null,
+    run.left_out ? h("p", { class: "why", data: { toneText: "caution" }, text: holeText(run) }) : null,
     facts(run), recordedPart(id, recorded), noteField(run), over,
     run.errors ? comparing(run, others, tables) : null, tables, stateLog(run),
-    h("div", { class: "run-files" }, file(run, "csv", "CSV", "Time, state, commanded and measured strokes in mm"), file(run, "mcap", "MCAP", "For Foxglove and other viewers: strokes, commands, states and every byte"), deleteButton(run, leave, open)));
+    h("div", { class: "run-files" },
+      file(run, "csv", "CSV", "Time, state, commanded and measured strokes in mm"),
+      file(run, "mcap", "MCAP", "A recording for Foxglove and other viewers: strokes, commands, states and all bytes"),
+      deleteButton(run, leave, open)));
   return { element, follow: () => setText(over, standing(run)) };
 }
 

@@ -21,7 +21,10 @@ const figures = (run) => [
 /** A run in a list: gait, result, who, when, duration and largest error. */
 function runRow(run, open) {
   const when = clockTime(run.started);
-  const button = h("button", { class: "run-row", title: `${run.sentence || "Show this run over the plan"} ${Number.isFinite(run.errors?.largest_mm) ? `Largest error of a motor: ${fixed(run.errors.largest_mm, 2)} mm.` : ""}`.trim(), data: { run: run.id }, on: { click: () => open(run.id) } },
+  const largest = run.errors?.largest_mm;
+  const error = Number.isFinite(largest) ? `Largest error of a motor: ${fixed(largest, 2)} mm.` : "";
+  const title = `${run.sentence || "Show this run together with the plan."} ${error}`.trim();
+  const button = h("button", { class: "run-row", title, data: { run: run.id }, on: { click: () => open(run.id) } },
     h("span", { class: "run-line" }, h("span", { class: "dot", data: { tone: runTone(run) } }), h("b", { text: run.gait_name }), h("span", { class: "word", text: run.state })),
     h("span", { class: "run-line quiet" }, h("span", { text: `${run.by} · ${when}` })),
     h("span", { class: "run-line quiet", text: figures(run) || run.sentence }),
@@ -85,4 +88,5 @@ export function runList(open) {
   };
 }
 
-const noRuns = ({ states }) => (states.length ? "No run matches the filters." : "No run yet. Send an approved gait to the robot: every run is kept here, with what was measured.");
+const noRuns = ({ states }) => (states.length ? "No run matches the filters."
+  : "No run yet. Send an approved gait to the robot. This list then shows the run with its measured strokes.");

@@ -17,11 +17,18 @@ const MOST_TRIES = 10;
 /** Compares the shown gait with the run that is laid over it. */
 function standing(store, run) {
   const { view, selected } = store.state;
-  if (run.gait.startsWith("file:")) return "This run was of a file, sent by a command: nothing is laid over the plots.";
+  if (run.gait.startsWith("file:")) return "This run came from a file on the command line. "
+    + "The plots cannot show its measured strokes.";
   const known = store.state.gaits.some(({ id }) => id === run.gait);
-  if (selected !== run.gait) return `The gait of this run is not ${known ? "the one that is shown" : "among the gaits any more"}: nothing is laid over the plots.`;
-  if (view?.plan?.waypoints_hash !== run.waypoints_hash) return "The gait has changed since this run. The plots show the run's measured strokes over the new plan, so they need not agree.";
-  return "Measured strokes stand over the planned ones in the plots.";
+  if (selected !== run.gait) {
+    const why = known ? "The page shows another gait" : "The gait of this run does not exist any more";
+    return `${why}, so the plots do not show the measured strokes of this run.`;
+  }
+  if (view?.plan?.waypoints_hash !== run.waypoints_hash) {
+    return "The gait has changed since this run. "
+      + "The plots show the old measured strokes and the new plan, which can differ.";
+  }
+  return "The plots show the measured strokes together with the planned strokes.";
 }
 
 /** The drawer's content: all runs, or one of them. */

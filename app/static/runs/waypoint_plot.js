@@ -24,7 +24,7 @@ const key = (kind) => h("span", {}, svg("svg", { class: "run-key", viewBox: "0 0
 
 /** The values of both runs at the waypoint under the pointer, in the caption. */
 function pointed(picture, reading, { places, series, unit }, placeAt) {
-  const empty = "Point at a waypoint to read both.";
+  const empty = "Point at a waypoint to read the values of both runs.";
   reading.textContent = empty;
   onPointed(picture, (event) => {
     const box = picture.getBoundingClientRect();

@@ -143,7 +143,9 @@ def edit_while_the_robot_moves(page: Page) -> None:
     step.fill("9")
     step.press("Enter")
     page.get_by_role("tab", name="Run").click()
-    expect(later).to_have_text("The run goes on with the approved version; what you see is a later edit.")
+    expect(later).to_have_text(
+        "The run continues with the approved version of the gait. The page shows a later edit."
+    )
     look(page, "edited while it runs")
 
 

@@ -54,7 +54,7 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
     jog.get_by_role("spinbutton", name="Jog step").press("Enter")
     higher.click()
     higher.click()
-    expect(jog.get_by_text(re.compile(r"3 moves, about .* Stop acts within"))).to_be_visible()
+    expect(jog.get_by_text(re.compile(r"3 moves, about .* Stop takes effect within"))).to_be_visible()
     before = studio.robot()["strokes_mm"]
     assert max(before) < 1.0
     look(page, "jog")
@@ -64,7 +64,7 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
     assert page.evaluate(SCROLLED) > 0
     place = move.bounding_box()
     wait_for(lambda: min(studio.robot()["strokes_mm"]) > 6.0, "the body is raised", 60.0)
-    expect(jog.get_by_text("The steps begin at the present strokes of the motors.")).to_be_visible()
+    expect(jog.get_by_text("The jog starts at the present strokes of the motors.")).to_be_visible()
     wait_for(lambda: studio.robot()["robot"] == "armed", "the jog is done", 60.0)
     expect(page.get_by_role("status", name="Robot")).to_contain_text("armed")
     now = move.bounding_box()
@@ -111,7 +111,9 @@ def test_a_pose_is_taken_into_the_segment_table_and_undone(page: Page, studio: S
     expect(higher).not_to_have_attribute("aria-disabled", "true")
     higher.click()
     take.click()
-    expect(page.get_by_text(f"Pose 1 is segment {before + 1} of the segment table.")).to_be_visible()
+    expect(
+        page.get_by_text(f"“Pose 1” was added to the segment table as segment {before + 1}.")
+    ).to_be_visible()
     wait_for(lambda: segments() == before + 1, "the table is longer", 60.0)
     page.keyboard.press("Control+z")
     wait_for(lambda: segments() == before, "the pose is undone", 60.0)

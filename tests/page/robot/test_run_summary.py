@@ -31,6 +31,6 @@ def test_the_names_stand_in_one_line_beside_a_long_reason(
         page.get_by_role("tab", name="Run").click()
         expect(page.get_by_text("To the start pose")).to_be_visible()
         rows = page.locator("#robot dl.summary")
-        expect(rows.get_by_text("with the slowest scan known")).to_be_visible()
+        expect(rows.get_by_text("the slowest error scan of the firmware")).to_be_visible()
         assert len(set(rows.evaluate(HEIGHTS))) == 1
         assert rows.evaluate(OVER) == 0

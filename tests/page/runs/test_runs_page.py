@@ -100,19 +100,19 @@ def compare_with_a_stopped_run(page: Page) -> None:
     choice.select_option(label=label)
     words = panel(page).get_by_role("status", name="Comparison")
     expect(words).to_have_text(
-        re.compile(r"Aligned by waypoint: \d+ waypoints .* where the shorter run ended\.$")
+        re.compile(r"The comparison covers the \d+ waypoints .* where the shorter run ended\.$")
     )
     times = panel(page).get_by_role("table", name="Times, s")
     expect(times.get_by_role("row", name=re.compile("^duration"))).to_have_text(
         re.compile(r"(\d+\.\d)\s*\1\s*0\.0")
     )
-    plot = panel(page).get_by_role("img", name=re.compile("^Time, s, over waypoints: this run ends at"))
+    plot = panel(page).get_by_role("img", name=re.compile("^Time, s, at each waypoint: this run ends at"))
     expect(plot.locator("polyline")).to_have_count(2)
     expect(panel(page).get_by_role("note", name="Lines of the comparison")).to_have_text(
         "this runthe other run"
     )
     panel(page).get_by_label("Plot of both runs").select_option(label="Stroke of foot 2, motor 1, mm")
-    plot = panel(page).get_by_role("img", name=re.compile("^Stroke of foot 2, motor 1, mm, over waypoints"))
+    plot = panel(page).get_by_role("img", name=re.compile("^Stroke of foot 2, motor 1, mm, at each waypoint"))
     plot.hover()
     expect(panel(page)).to_contain_text(re.compile(r"waypoint \d+: this \d+\.\d\d, other \d+\.\d\d mm"))
 

@@ -41,7 +41,7 @@ async function answer(method, path, body, signal) {
       signal,
     });
   } catch {
-    throw new ApiError("The studio does not answer. Is it still running?", 0);
+    throw new ApiError("The studio does not answer. Check that the studio is still running.", 0);
   }
   if (!response.ok) throw await refusal(response);
   return response;

@@ -9,8 +9,8 @@ export function whyNotDrawn(document) {
       + "Change the gait of a part, then press “take over” at this part.";
   }
   if (document?.poses) {
-    return "This timeline follows from the poses of the gait. "
-      + "You cannot draw in it: change foot order, step, cycles or another field of the step Design.";
+    return "You cannot draw in this timeline, because it follows from the poses of the gait. "
+      + "Change foot order, step, cycles or another field in Design instead.";
   }
   return null;
 }

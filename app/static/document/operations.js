@@ -51,8 +51,8 @@ function mirrorNote(region, mirror) {
 
 function mirror({ document, region, mirror: map, words }) {
   if (!map) {
-    return { reason: "The gait cannot be mirrored. "
-      + "Its heading must lie along a leg or halfway between two legs." };
+    const reason = "A gait can be mirrored only if its heading lies along a leg or halfway between two legs.";
+    return { reason };
   }
   return { apply: (now) => mirroredWhole(now, region, map), label: `Mirror ${words}`, note: mirrorNote(region, map) };
 }
@@ -80,14 +80,14 @@ function stretch({ document, region, words, amount }) {
 function repeatWhole({ document, amount }) {
   const iterations = document.iterations * amount;
   if (iterations > MOST_ITERATIONS) {
-    return { reason: `The gait would have ${iterations} iterations. `
-      + `Enter a smaller number: ${MOST_ITERATIONS} iterations are possible.` };
+    const reason = `The gait would have ${iterations} iterations. At most ${MOST_ITERATIONS} iterations are possible.`;
+    return { reason };
   }
   const feet = document.segment_table ? null : isDrawn(document) ? drawnRows({ ...document, iterations }) : repeatedRows(document, iterations);
   const shown = feet && { ...document, iterations, timeline: { ...document.timeline, feet, locked: feet.map((row) => "0".repeat(row.length)) } };
   if (!feet && !document.segment_table) {
     return { reason: `The ${document.iterations} iterations have different lengths. `
-      + "Select the samples to repeat." };
+      + "Select the samples that you want to repeat." };
   }
   return {
     apply: (now) => ({ ...now, iterations }), document: shown, label: `Iterations to ${iterations}`, drawing: false, selection: null,
@@ -114,7 +114,7 @@ function rotate({ document }) {
   return {
     apply: (now) => ({ ...now, direction }), document: shown, label: `Direction to ${direction}`, drawing: false,
     note: `The direction changes from ${document.direction} to ${direction}. `
-      + "Each foot gets the cells of another foot.",
+      + "Each foot takes the cells of another foot.",
   };
 }
 
@@ -182,21 +182,21 @@ export const OPERATIONS = {
   repeat: {
     name: "Repeat", outcome: repeat,
     help: "Repeat the selected samples of all feet and move the later samples. "
-      + "Without a selection: more iterations",
+      + "Without a selection the whole gait gets more iterations",
     amount: { name: "Times", unit: "", least: 2, most: MOST_ITERATIONS, start: () => 2 },
   },
   rotate: { name: "Rotate by 90°", help: "Turn the direction of the whole gait by 90°", outcome: rotate },
   duplicate: {
     name: "Duplicate", help: "Copy the selection to the samples right after the selection. "
-      + "The copy replaces the cells there",
+      + "The copy overwrites the cells in these samples",
     outcome: duplicate,
   },
   stance: {
-    name: "To stance", help: "All selected cells become stance",
+    name: "To stance", help: "Change the selected cells to stance",
     outcome: ({ region, words }) => ({ apply: (now) => toStance(now, region), label: `${words} to stance` }),
   },
-  lock: { name: "Lock", help: "Locked cells keep their value", outcome: locking(true) },
-  unlock: { name: "Unlock", help: "Let the cells change again", outcome: locking(false) },
+  lock: { name: "Lock", help: "Lock the cells: no edit changes them", outcome: locking(true) },
+  unlock: { name: "Unlock", help: "Allow changes of the locked cells again", outcome: locking(false) },
   insert: {
     name: "Insert samples", outcome: insert, columns: true,
     help: "Insert samples for all feet before the selection or the focused cell. "

@@ -92,7 +92,8 @@ export function heldBack(before, after) {
   }
   for (const [foot, row] of (old.locked ?? []).entries()) {
     const sample = [...row].findIndex((lock, index) => lock === "1" && now.locked?.[foot]?.[index] === "1" && old.feet[foot][index] !== now.feet[foot][index]);
-    if (sample >= 0) return `Foot ${foot + 1}, sample ${sample + 1} is locked, but would change. `
+    if (sample < 0) continue;
+    return `This operation would change foot ${foot + 1}, sample ${sample + 1}, which is locked. `
       + "Unlock this cell first.";
   }
   return JSON.stringify(before) === JSON.stringify(after) ? "Nothing would change." : null;

@@ -69,7 +69,7 @@ export const ACTS = [
   {
     key: "send", title: "Send the gait to the emulated robot", place: nextButton,
     sentence: ({ robot }) => (robot?.emulated === false ? REAL
-      : "Press the button at the bottom of this panel, again and again. "
+      : "Press the button at the bottom of this panel until the robot walks. "
         + "The button always does the next action: Simulate, Check, Approve, Connect, Arm, Send."),
   },
 ];

@@ -108,7 +108,8 @@ export function mountFirstSteps(store, playback) {
     if (opened === null || opened === key) opened = firstToDo();
     show();
   });
-  addHelp({ text: "First steps", help: "Show four exercises: play, change, repair, send", act: begin });
+  const help = "Show four first exercises, from playing a gait to sending a gait to the robot";
+  addHelp({ text: "First steps", help, act: begin });
 
   opened = firstToDo();
   store.watch(({ view, robot }) => [view?.document, robot?.emulated, planIsOn(robot)], show);

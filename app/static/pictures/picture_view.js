@@ -8,6 +8,7 @@ const WHEEL = 0.0015;
 const STEP = 1.4;
 const CLICK_PX = 4;
 const PAN_PX = 48;
+const KEYS_HELP = "The arrow keys move the picture. The keys + and − zoom. The key F shows the whole picture";
 
 /** The scale and place of a picture in its frame; `x`, `y` is where the picture's corner lies, screen px. */
 function createView() {
@@ -151,7 +152,7 @@ export function pictureView(name) {
   const panned = doing((dx, dy) => move(dx, dy, bounds(), size));
   const middle = () => ({ x: bounds().width / 2, y: bounds().height / 2 });
   const frame = h("div", { class: "video-frame", role: "group", tabindex: "0", "aria-label": name, data: { keys: "", arrows: "" },
-    "aria-description": "Arrow keys move the picture. Plus and minus zoom. F shows the whole picture" },
+    "aria-description": KEYS_HELP },
   image, overlay, layer, zoomButtons({ zoom: zoomed, fit: fitted, middle }));
 
   mountPointer(frame, { pan: panned, zoom: zoomed, hover: (at) => listeners.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),

@@ -57,7 +57,7 @@ function targetText({ wired, moves, seconds: takes, stop_seconds: stop, margin_m
   const off = Math.max(0, ...(residual ?? []).map(Math.abs));
   if (!wired) {
     return "Only the 3D preview shows this target, because this program cannot move this robot. "
-      + `The coupled motors miss the strokes of the target by up to ${fixed(off)} mm.`;
+      + `The motors are coupled, so the strokes differ from the target by up to ${fixed(off)} mm.`;
   }
   if (!moves) return "";
   const balance = margin === null ? "" : ` Stability margin ${fixed(margin)} mm.`;
@@ -147,7 +147,7 @@ export function jogPart(store, edits) {
       setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
     }
     setAllowed(parts.back, now.steps.length ? null : "The target is already the present pose of the robot.",
-      "Make the present pose of the robot the target again. The robot does not move");
+      "Set the target back to the present pose of the robot. The robot does not move");
     const { target_mm: pose = null, wired = false } = answer ?? now.answer ?? {};
     store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null, wired } });
     return undefined;
@@ -165,7 +165,7 @@ const HELP = "Add a segment to the end of the segment table. In this segment eve
 function whyNot(state) {
   const document = shownDocument(state);
   if (!document) return "No gait is selected.";
-  if (isSequence(document)) return "A sequence has no segment table of its own. Choose one of its gaits.";
+  if (isSequence(document)) return "A sequence has no segment table. Choose one of the gaits in the sequence.";
   if (!document.segment_table) {
     return "This gait has no segment table. "
       + "Make a table in the view Segments, or choose a gait of the group By hand.";

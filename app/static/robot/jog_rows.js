@@ -34,7 +34,7 @@ function whyNot(handle, row, by) {
   const [least, most] = [row.least_mm - row.target_mm, row.most_mm - row.target_mm];
   if (by >= least - ROUNDING_MM && by <= most + ROUNDING_MM) return null;
   const range = `${fixed(least)} to ${fixed(most)} mm`;
-  return `${handleName(handle)}: from its present value the target can change by ${range}. `
+  return `${handleName(handle)}: you can change the target by ${range}. `
     + "Choose a shorter step.";
 }
 

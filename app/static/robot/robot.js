@@ -29,7 +29,7 @@ const bound = (limit) => (limit === null || limit === undefined ? "a few seconds
 /** Stop's worst case, in one short figure. */
 const stopSentence = (limit) => `Stop takes effect within ${bound(limit)}. The power switch is the emergency stop.`;
 const STOP_HELP = "The studio sends Stop over the cable. The robot first ends its present move. "
-  + "It stops at the latest after the time given here.";
+  + "The robot stops at the latest after the time given here.";
 const CLEAR_HELP = "Confirm that you have seen the stop or the fault. The robot does not move";
 
 function act(store, verb, extra = () => ({})) {
@@ -54,7 +54,7 @@ function checkedStopText({ stop_seconds: stop, checked_stop_seconds: checked, sc
   if (seconds(stop) === seconds(checked)) return null;
   const why = scan === null ? "it counts all waypoints of the plan."
     : `it assumes the slowest error scan of the firmware. This robot's error scan took ${seconds(scan)} s.`;
-  return `Check gives ${seconds(checked)} s, because ${why}`;
+  return `For Stop, Check gives ${seconds(checked)} s, because ${why}`;
 }
 
 /** What will move, how long, and how soon it stops. */
@@ -109,7 +109,7 @@ function assemble({ store, edits, playback }, parts, send) {
   const arm = way(2, h("div", { class: "buttons" }, parts.armed, parts.reset.button), parts.armNote);
   const start = way(3, parts.summary, runRangePart(store, playback));
   const before = h("div", { class: "before-run" }, h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), parts.last, parts.runs,
-    h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start));
+    h("ol", { class: "steps", role: "list", "aria-label": "Steps to a run" }, connect, arm, start));
   const key = h("span", { text: "bar: measured, line: target, in mm" });
   const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", key), parts.bars.element);
   const more = h("div", { class: "after-run" }, jogPart(store, edits), robotFaults(store));

@@ -28,7 +28,8 @@ function nowText(state) {
   const isUp = (row) => row[next] === "0" || (isOfPoses && row[sample] === "0");
   const feet = rows.flatMap((row, foot) => (isUp(row) ? [foot + 1] : []));
   if (!feet.length) return "All feet are on the ground. The body moves.";
-  const swinging = feet.length === 1 ? `Foot ${feet[0]} swings` : `Feet ${feet.join(" and ")} swing`;
+  const names = feet.join(", ").replace(/, ([^,]*)$/, " and $1");
+  const swinging = feet.length === 1 ? `Foot ${names} swings` : `Feet ${names} swing`;
   return `${swinging}. The other feet are on the ground.`;
 }
 

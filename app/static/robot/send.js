@@ -54,7 +54,7 @@ export function sendControl({ prepare, send }) {
     setText(number, String(COUNTDOWN_S));
     cancelButton.focus({ preventScroll: true });
     countdown.scrollIntoView({ block: "nearest" });
-    announce(`Sending in ${COUNTDOWN_S} seconds.`);
+    announce(`The gait is sent in ${COUNTDOWN_S} seconds.`);
     timer = setInterval(() => {
       // Where Cancel cannot be seen or pressed any more, nothing is sent.
       if (!isInReach(countdown)) return cancel();

@@ -71,18 +71,18 @@ function tables({ runs: [one, other] }) {
   const times = ({ figures, move_seconds: moves }) => [figures.seconds, figures.estimate, Math.max(...moves), figures.start_seconds];
   const largest = (figures) => [figures.largest_mm, Math.max(...figures.foot_largest_mm), figures.body_largest_mm];
   return [
-    figureTable("Times, s", "Only the waypoints that both runs reached. "
+    figureTable("Times, s", "The table covers only the waypoints that both runs reached. "
       + "Duration: from the first message to the last arrival. "
       + "Expected: the duration that the firmware's speed ramps predict",
       head, rowsOf(words(["duration", "expected", "slowest move", "to the start pose"]), times(one), times(other), 1)),
     figureTable("Largest errors, mm", "Largest error of any motor, any foot and the body. "
-      + "Only the waypoints that both runs reached",
+      + "The table covers only the waypoints that both runs reached",
       head, rowsOf(words(["motors, largest", "feet, largest", "body, largest"]), largest(a), largest(b))),
     figureTable("Feet, largest, mm", "Largest distance of each foot from its planned position. "
-      + "Only the waypoints that both runs reached",
+      + "The table covers only the waypoints that both runs reached",
       head, rowsOf(a.foot_largest_mm.map((_, foot) => footName(foot)), a.foot_largest_mm, b.foot_largest_mm)),
     figureTable("Motors, largest, mm", "Largest difference between measured and commanded stroke. "
-      + "Only the waypoints that both runs reached",
+      + "The table covers only the waypoints that both runs reached",
       head, rowsOf(a.motor_largest_mm.map(motorName), a.motor_largest_mm, b.motor_largest_mm)),
   ];
 }

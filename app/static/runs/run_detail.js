@@ -73,6 +73,8 @@ function comparing(run, others, tables) {
   return h("label", { class: "run-against quiet" }, "Compare with ", select);
 }
 
+const MCAP_HELP = "Download a recording for Foxglove and similar viewers: strokes, commands, states and bytes";
+
 const file = (run, form, text, help) => h("a", { href: `/api/runs/${encodeURIComponent(run.id)}/run.${form}`, download: "", text, title: help });
 
 /** What cameras recorded with the run: a line that comes later than the page. */
@@ -104,8 +106,8 @@ export async function runDetail(id, { leave, open, standing, recorded }) {
     facts(run), recordedPart(id, recorded), noteField(run), over,
     run.errors ? comparing(run, others, tables) : null, tables, stateLog(run),
     h("div", { class: "run-files" },
-      file(run, "csv", "CSV", "Time, state, commanded and measured strokes in mm"),
-      file(run, "mcap", "MCAP", "A recording for Foxglove and other viewers: strokes, commands, states and all bytes"),
+      file(run, "csv", "CSV", "Download a table of time, state, commanded and measured strokes in mm"),
+      file(run, "mcap", "MCAP", MCAP_HELP),
       deleteButton(run, leave, open)));
   return { element, follow: () => setText(over, standing(run)) };
 }

@@ -18,7 +18,7 @@ const MOST_TRIES = 10;
 function standing(store, run) {
   const { view, selected } = store.state;
   if (run.gait.startsWith("file:")) return "This run came from a file on the command line. "
-    + "The plots cannot show its measured strokes.";
+    + "The plots cannot show the measured strokes of such a run.";
   const known = store.state.gaits.some(({ id }) => id === run.gait);
   if (selected !== run.gait) {
     const why = known ? "The page shows another gait" : "The gait of this run does not exist any more";

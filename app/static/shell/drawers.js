@@ -71,6 +71,6 @@ export function mountDrawers(store) {
     const count = jobs.filter(jobIsOn).length;
     byId("jobs-count").hidden = count === 0;
     setText(byId("jobs-count"), String(count));
-    setAttribute(byId("rail-jobs"), "aria-description", count ? `${count} at work` : null);
+    setAttribute(byId("rail-jobs"), "aria-description", count ? `${count} running` : null);
   });
 }

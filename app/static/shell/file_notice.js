@@ -7,7 +7,7 @@ import { acceptView } from "../state/store.js";
 
 const USE_FILE = "Replace the gait by the content of the file. Undo brings back the gait that you see now";
 const KEEP_MINE = "Write the file again as you last saved it here. "
-  + "The other file is kept in the folder set-aside";
+  + "The changed file is kept in the folder set-aside";
 
 /**
  * Shows over the preview that the shown gait's file was changed, for as long as it is so.

@@ -98,7 +98,7 @@ function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
     const view = await api.recover(id);
     await selectGait(store, id);
     acceptView(store, view);
-    toast(`“${view.name}” can be shown again. Versions keeps the state that could not be shown. `
+    toast(`“${view.name}” can be shown again. The list Versions keeps the state that could not be shown. `
       + "A file that could not be read is now in the folder set-aside.");
   });
   openDialog((close) => {

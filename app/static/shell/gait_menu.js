@@ -90,7 +90,7 @@ function gaitActs(store, edits, show, deletedHere) {
     },
     ...exports,
     {
-      text: "Delete", help: "Delete this saved gait. The menu New › Deleted gaits brings a gait back",
+      text: "Delete", help: "Delete this saved gait. New › Deleted gaits can bring this gait back",
       act: attempt(() => remove(store, show, deletedHere)),
       refusal: () => (lineOf(store.state)?.kind === "saved" ? null : KEPT),
     },

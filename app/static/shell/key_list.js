@@ -25,7 +25,7 @@ const GROUPS = {
     ["Arrows", "Move between cells; with Ctrl to the next start or end of a swing"],
     ["Home, End", "Go to the first or last cell of the row; with Ctrl, of the whole timeline"],
     ["Space, Enter", "Change the cell to swing or stance. "
-      + "This works only if you came to the cell by keyboard"],
+      + "Space and Enter work only if you came to the cell by keyboard"],
     ["Shift+arrows", "Select cells; Shift+Home and Shift+End select to the start or end of the row"],
     ["Shift+Space", "Select the row"],
     ["Ctrl+A", "Select all"],
@@ -36,12 +36,12 @@ const GROUPS = {
   "Pointer on the timeline": [
     ["Drag", "Use the chosen tool. "
       + "With Paint: a drag on stance draws a swing, a drag on a swing moves the swing or its end"],
-    ["Alt or B + drag", "Paint, also from a cell with a swing. B alone chooses the tool Paint"],
+    ["Alt or B + drag", "Paint, also when the drag starts on a swing. B alone chooses the tool Paint"],
     ["Shift + drag", "Lock cells. A drag that starts on a locked cell unlocks cells"],
     ["Ctrl + drag", "Select cells. Shift + click extends the selection. "
       + "A click on a row's name selects the row"],
     ["Double click", "With the tool Select: select the whole swing. "
-      + "Then drag to move the swing, or with Alt to copy it"],
+      + "Then drag the swing to move it, or with Alt to copy it"],
     ["Ctrl + wheel", "Zoom the timeline. The wheel alone scrolls"],
   ],
   "Lists and toolbars": [
@@ -51,7 +51,7 @@ const GROUPS = {
     ["Double click", "On a gait in the list: change its name"],
   ],
   "Touch": [
-    ["Long press", "Show the explanation that a mouse pointer shows"],
+    ["Long press", "Show the explanation of a control, as a mouse pointer does"],
     ["Two fingers", "Zoom the timeline"],
   ],
   "Segment table": [
@@ -64,7 +64,7 @@ const GROUPS = {
   ],
   "Parts of a sequence": [
     ["↑ ↓", "Go to the previous or next part; with Alt move the part up or down"],
-    ["Enter", "Go to the start of the part"],
+    ["Enter", "Move the playhead to the start of the part"],
     ["Delete", "Remove the part from the sequence"],
   ],
   "Pattern search": [
@@ -81,8 +81,8 @@ const GROUPS = {
       + "Delete removes the point"],
   ],
   "Goal and numbers": [
-    ["Arrows", "On the goal in 3D: move by 0.5 mm. On its knob: turn by 1°. With Shift: ten times as far. "
-      + "In a number field: change the number"],
+    ["Arrows", "On the goal in 3D: move the goal by 0.5 mm. On the knob of the goal: turn the goal by 1°. "
+      + "With Shift: ten times as far. In a number field: change the number"],
   ],
 };
 

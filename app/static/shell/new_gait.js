@@ -104,7 +104,7 @@ function form(list, preset) {
     const samples = robot().legs * 2 * Number(value("phase_knots")) + Number(value("closing_knots"));
     const { motors, strokes } = robot();
     const coupled = !robot().coupled ? ""
-      : ` ${motors} motors drive ${strokes} strokes, so the feet may leave the plan. `
+      : ` ${motors} motors drive ${strokes} strokes, so the feet may not follow the plan exactly. `
         + "Check shows how the feet really move.";
     const lasts = ((samples - 1) * KNOT_SECONDS).toFixed(1);
     note.textContent = `One iteration has ${samples} samples and takes ${lasts} s.${coupled}`;
@@ -170,7 +170,7 @@ export async function askNewGait(preset) {
       }
     };
     const usual = "In the new gait the feet step one after the other. "
-      + "You can change its timeline afterwards.";
+      + "You can change the timeline of the gait afterwards.";
     const dialog = dialogFrame("New gait", close, accept,
       h("p", { class: "quiet", text: preset.sentence ?? usual }),
       ...parts.rows.map(({ element }) => element), parts.note, general,
@@ -188,6 +188,6 @@ export function presetFor(robot, document) {
     robot: robot.name, name: `${document.name}, ${robot.title.split(",")[0]}`.slice(0, 60), orientation: document.orientation,
     step: Number((stepLength(document) * 1000).toFixed(2)), closing_knots: document.options.closing_knots,
     sentence: `“${document.name}” is a gait for ${feet} legs, but ${robot.title} has ${robot.legs} legs. `
-      + `So you make a new gait for this robot. “${document.name}” does not change.`,
+      + `Create makes a new gait for this robot. “${document.name}” does not change.`,
   };
 }

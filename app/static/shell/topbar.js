@@ -46,7 +46,7 @@ export async function stopRobot(store) {
 
 /** What is wrong with a name; null where nothing is. */
 function refusedName(name, { gaits, selected }) {
-  if (!name) return "A gait needs a name. Write one, or press Escape.";
+  if (!name) return "A gait needs a name. Write a name, or press Escape.";
   const taken = gaits.some((gait) => gait.id !== selected && gait.name === name);
   return taken ? `Another gait is called “${name}”. Write another name, such as “${freeName({ gaits }, name)}”, or press Escape.` : null;
 }
@@ -108,9 +108,9 @@ function savedWord({ view, pending, refused, connected }, unfit) {
 
 /** Every edit is in the studio's database before it is shown as done; Save writes the file that others can read. */
 function savedHelp(view) {
-  const file = view.saved_at ? `Last saved to its file in the data folder: ${clockTime(view.saved_at)}.`
+  const file = view.saved_at ? `Last saved to the data folder: ${clockTime(view.saved_at)}.`
     : "The gait has no file in the data folder yet.";
-  return view.edited ? `The studio keeps every edit after a restart. ${file} Save writes the file.` : file;
+  return view.edited ? `The studio keeps every edit, also without Save. ${file} Save writes the file.` : file;
 }
 
 function mountHistory(store, edits) {

@@ -9,7 +9,8 @@ import { ticket } from "../lib/latest_only.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
 
 const TEXTS = {
-  saved: "Saved", named: "Named", approved: "Approved", automatic: "While editing", "before restore": "Before going back", "before delete": "Before deleting",
+  saved: "Saved", named: "Named", approved: "Approved", automatic: "While editing",
+  "before restore": "Before a restore", "before delete": "Before deleting",
 };
 const titleOf = (version) => version.name || TEXTS[version.kind];
 
@@ -96,7 +97,7 @@ function panel(store, edits, ui) {
 
   const restore = attempt(async () => {
     await edits.restoreVersion(chosen);
-    toast(`Version ${chosen} is restored. Undo brings back the state before.`);
+    toast(`Version ${chosen} is restored. Undo brings back the state before the restore.`);
     announce(`Version ${chosen} restored.`);
     ui.list.focus();
   });

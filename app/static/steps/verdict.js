@@ -11,10 +11,10 @@ import { openStep } from "./steps.js";
 
 const MARGIN_HELP = "Stability margin: how far the balance point stays inside the area between "
   + "the feet on the ground. Below 0 the robot tips. "
-  + "The balance point is the centre of pressure of a solved motion. "
-  + "In any other motion it is the centre of mass.";
+  + "The balance point of a solved motion is the centre of pressure. "
+  + "The balance point of any other motion is the centre of mass.";
 const LIVE_HELP = "A live plan is computed again after every edit. "
-  + "Its footholds and body height are set in advance, not optimised.";
+  + "The footholds and the body height of a live plan are set in advance, not optimised.";
 
 const NO_PLAN = "There is no plan yet. Press Optimise to see the gait move.";
 
@@ -35,7 +35,7 @@ function planPart(state) {
   const tone = !margin ? null : plan.balance < 0 ? "bad" : mark === "old" && isThin(plan) ? "caution" : null;
   const thin = tone !== "caution" ? ""
     : `The robot needs a stability margin of ${mm(plan.robot_margin)} mm. `
-      + "Below this only Simulate shows whether the robot walks.";
+      + "Below this margin only Simulate shows whether the robot walks.";
   const live = word === USUAL && plan.live ? LIVE_HELP : "";
   const help = [`${word}.`, thin, plan.note, live, isMotion ? MARGIN_HELP : ""].filter(Boolean).join(" ");
   return { mark, figure, tone, help };
@@ -101,7 +101,8 @@ function build({ name, step, of }) {
 
 /** What is shown instead of the gait's plan, in a few words. */
 function previewText({ iterate, preview, view, live, gesture, pending }) {
-  if (iterate) return iterate.pattern ? "The pattern, not the plan" : "An iteration of the optimiser, not the plan";
+  if (iterate?.pattern) return "Shown: the pattern, not the plan";
+  if (iterate) return "Shown: an iteration of the optimiser, not the plan";
   if (preview) return "Preview";
   if (view && (gesture || pending.length || (live && live.plan !== view.plan))) return "Edit under way";
   return "";

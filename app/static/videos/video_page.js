@@ -21,7 +21,7 @@ function setupChoice({ setups, chosen, changed, edit, make }) {
     + "platform, and which colours the feet have" },
     ...setups.map(({ id, setup }) => h("option", { value: id, text: setup.name })), setups.length ? null : h("option", { value: "", text: "none yet" }));
   const state = h("p", { class: "why", role: "status" });
-  const change = h("button", { type: "button", class: "link", text: "Change it…" });
+  const change = h("button", { type: "button", class: "link", text: "Change this setup…" });
   const made = h("button", { type: "button", class: "link", text: "New setup…", on: { click: make } });
   const now = () => setups.find(({ id }) => id === select.value) ?? null;
   const show = () => {
@@ -41,7 +41,8 @@ function removeButton(video, back) {
     await videoApi.remove(video.id);
     back();
     const undo = attempt(async () => { await videoApi.restore(video.id); back(); });
-    toast(`The video “${video.name}” is deleted. Its trials are kept.`, { action: { label: "Undo", act: undo } });
+    const deleted = `The video “${video.name}” is deleted, but its trials are kept.`;
+    toast(deleted, { action: { label: "Undo", act: undo } });
   });
   return h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this video", on: { click: remove } });
 }
@@ -90,7 +91,9 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
     video.sentence ? h("p", { class: "why", data: { toneText: "caution" }, text: video.sentence }) : null,
     ...video.trials.map(({ id, name: of }) => h("button", { type: "button", class: "link", text: video.trials.length > 1 ? `Open its trial “${of}”` : "Open its trial", title: of, on: { click: () => page.one(id) } })),
     choice.element, h("label", {}, h("span", { text: "Trial name" }), name), ...walk.labels, progress, track,
-    h("div", { class: "run-files" }, h("a", { href: `/api/videos/${encodeURIComponent(video.id)}/file`, download: "", text: "The file" }), removeButton(video, back)));
+    h("div", { class: "run-files" },
+      h("a", { href: `/api/videos/${encodeURIComponent(video.id)}/file`, download: "", text: "Download the file" }),
+      removeButton(video, back)));
   onPress(track, () => { if (form.reportValidity()) begin(); }, (why) => toast(why, { of: "studio" }));
   page.show(form, () => stage.close());
   choice.show();

@@ -55,7 +55,10 @@ function buildUpload() {
     if (video?.again) toast(`The studio already has “${chosen.name}”, sent ${clockTime(video.made)} as `
       + `“${video.name}”.`, { of: "studio" });
     if (video && field.element.isConnected) field.done(video);
-    else if (video) toast(`${video.name} is sent.`, { action: { label: "Track its feet", act: () => field.done(video) } });
+    else if (video) {
+      const act = () => field.done(video);
+      toast(`The video “${video.name}” is sent.`, { action: { label: "Track the feet", act } });
+    }
   }
 
   file.addEventListener("change", send);

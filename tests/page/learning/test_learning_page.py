@@ -84,7 +84,7 @@ def test_a_course_is_asked_for_again_only_where_the_studio_does_not_answer(
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name="Learn from trials").click()
         progress = panel.get_by_role("status", name="Learning")
-        expect(progress).to_have_text("The studio does not answer. Is it still running?")
+        expect(progress).to_have_text("The studio does not answer. Check that the studio is still running.")
         expect(progress).to_have_text("The disk is full.")
         assert len(asked) == 2
 

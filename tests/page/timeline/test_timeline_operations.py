@@ -246,10 +246,10 @@ def test_what_a_locked_cell_forbids_says_which_and_does_nothing(timeline: Timeli
     line.hover()
     expect(line).to_have_attribute("aria-disabled", "true")
     expect(line).to_have_attribute(
-        "aria-description", re.compile("Foot 1, sample 6 is locked, but would change")
+        "aria-description", re.compile("would change foot 1, sample 6, which is locked")
     )
     timeline.press("Escape", "Delete")
-    timeline.said("Foot 1, sample 6 is locked, but would change. Unlock this cell first.")
+    timeline.said("This operation would change foot 1, sample 6, which is locked. Unlock this cell first.")
     line = timeline.item("Remove samples")
     expect(line).to_have_attribute(
         "aria-description", re.compile("Foot 1, sample 6 is locked. Unlock all cells")

@@ -30,7 +30,7 @@ def test_readme_is_read_in_one_breath() -> None:
 
 
 def test_readme_has_eight_figures_and_the_others_name_their_command() -> None:
-    figures = README[README.index("## Figures") : README.index("## Where to read on")]
+    figures = README[README.index("## Figures") : README.index("## Further reading")]
     assert len(table_rows(figures)) == 8
     commands = [row[-1] for row in table_rows(FIGURES)]
     named = [re.fullmatch(r"`bench (\w+)`", command) for command in commands]

@@ -59,9 +59,9 @@ export function checkerboardBook({ changed, found }) {
 /** Ways to pictures of the board: files, frames of the shown video, what the camera sees. */
 export function checkerboardSources(stage, book, status) {
   const { source } = stage;
-  const files = h("input", { type: "file", multiple: true, accept: "image/*", "aria-label": "Pictures of the board" });
-  const spread = h("button", { type: "button", text: "Frames of this video", title: "24 pictures, evenly over the video" });
-  const one = h("button", { type: "button", text: source.kind === "video" ? "The shown frame" : "The picture now", title: "Looks for the board in what is shown" });
+  const files = h("input", { type: "file", multiple: true, accept: "image/*", "aria-label": "Pictures of the checkerboard" });
+  const spread = h("button", { type: "button", text: "Frames of this video", title: "Looks for the checkerboard in 24 frames, spread evenly over the video" });
+  const one = h("button", { type: "button", text: source.kind === "video" ? "The shown frame" : "The picture now", title: "Looks for the checkerboard in the picture that is shown" });
   const stop = h("button", { type: "button", class: "link", text: "Cancel", hidden: true });
   let ending = null;
 
@@ -69,7 +69,7 @@ export function checkerboardSources(stage, book, status) {
     if (ending) return;
     ending = new AbortController();
     stop.hidden = false;
-    setText(status, "Looking for the board…");
+    setText(status, "Looking for the checkerboard…");
     try {
       await act(ending.signal);
     } finally {
@@ -82,7 +82,7 @@ export function checkerboardSources(stage, book, status) {
   files.addEventListener("change", looking(async (signal) => {
     const chosen = [...files.files];
     for (const [index, file] of chosen.entries()) {
-      setText(status, `Looking for the board: picture ${index + 1} of ${chosen.length}…`);
+      setText(status, `Looking for the checkerboard: picture ${index + 1} of ${chosen.length}…`);
       const board = await setupApi.board(file, columns(), rows(), signal);
       if (board === null || signal.aborted) break;
       await book.add([board]);
@@ -97,7 +97,7 @@ export function checkerboardSources(stage, book, status) {
       if (signal.aborted) break;
       await book.add(boards);
       [frames, looked] = [left, looked + boards.length];
-      if (left.length) setText(status, `Looking for the board: picture ${looked + 1} of ${looked + left.length}…`);
+      if (left.length) setText(status, `Looking for the checkerboard: picture ${looked + 1} of ${looked + left.length}…`);
     } while (frames.length);
   }));
   one.addEventListener("click", looking(async () => {

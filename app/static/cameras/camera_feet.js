@@ -23,7 +23,7 @@ function footButtons(choose) {
 
 function blobText({ area, fill, fit, reason }, number, isChosen) {
   return h("li", { data: { fit: isChosen ? "chosen" : fit ? "fit" : "refused" } }, h("b", { text: String(number) }), h("span", { class: "number", text: `${fixed(area, 0)} px², filled ${fixed(fill * 100, 0)} %` }),
-    h("span", { class: isChosen ? "" : "quiet", text: isChosen ? "taken as the foot" : reason ?? "smaller than the one that is taken" }));
+    h("span", { class: isChosen ? "" : "quiet", text: isChosen ? "chosen as the foot" : reason ?? "smaller than the chosen spot" }));
 }
 
 function feetText(feet) {
@@ -39,7 +39,7 @@ function findings() {
     show(answer, foot) {
       const fit = answer.spots.filter((spot) => spot.fit).length;
       const count = answer.spots.length + answer.more;
-      setText(head, count ? `${count} ${count === 1 ? "spot has" : "spots have"} this colour, ${fit} could be a foot.` : `Nothing in this picture has the colour of foot ${foot + 1}.`);
+      setText(head, count ? `Spots with the colour of foot ${foot + 1}: ${count}. Spots that may be the foot: ${fit}.` : `Nothing in this picture has the colour of foot ${foot + 1}.`);
       spots.replaceChildren(...answer.spots.map((spot, index) => blobText(spot, index + 1, index === answer.chosen)), ...(answer.more ? [h("li", { class: "quiet", text: `and ${answer.more} smaller` })] : []));
       feet.replaceChildren(...feetText(answer.feet));
     },
@@ -49,8 +49,8 @@ function findings() {
 /** The fields of a foot's colour, and of the spots that may be any foot. */
 function colourFields(change, changeLimits) {
   const hue = hueRange((range, last) => change({ hue: range }, last));
-  const saturation = shareField("Least saturation", "How colourful a pixel must be; pale and grey pixels have a low saturation", (share, last) => change({ saturation: share }, last));
-  const value = shareField("Least brightness", "How bright a pixel must be; shadows are dark", (share, last) => change({ value: share }, last));
+  const saturation = shareField("Least saturation", "How strong the colour of a pixel must be at least. Pale and grey pixels have a low saturation", (share, last) => change({ saturation: share }, last));
+  const value = shareField("Least brightness", "How bright a pixel must be at least. Pixels in a shadow are dark", (share, last) => change({ value: share }, last));
   const limits = limitFields(changeLimits);
   return {
     elements: [hue.element, saturation.element, value.element, h("details", {}, h("summary", { text: "Which spots may be a foot" }), limits.element)],
@@ -82,8 +82,8 @@ export function feetPart(draft, stage) {
   const changeColour = (patch, last) => change({ colours: draft.state.setup.colours.map((one, index) => (index === foot ? { ...one, ...patch } : one)) }, last);
   const buttons = footButtons((next) => { foot = next; show(); stage.refresh(); });
   const fields = colourFields(changeColour, (patch) => change({ limits: { ...draft.state.setup.limits, ...patch } }));
-  const mask = h("button", { type: "button", text: "Mask", title: "Shows this colour bright and dims the rest", on: { click: () => { hasMask = !hasMask; showMask(); } } });
-  const picking = colourPicking(stage.picture, { changed: () => showMask(), take: (range) => { changeColour(range); announce(`Colour of foot ${foot + 1} taken.`); } });
+  const mask = h("button", { type: "button", text: "Mask", title: "Shows the pixels with this foot's colour and dims all other pixels", on: { click: () => { hasMask = !hasMask; showMask(); } } });
+  const picking = colourPicking(stage.picture, { changed: () => showMask(), take: (range) => { changeColour(range); announce(`The colour of foot ${foot + 1} is set.`); } });
   const shows = () => (hasMask && !picking.isOn() ? "mask" : "plain");
 
   function showMask() {
@@ -112,7 +112,7 @@ export function feetPart(draft, stage) {
   showMask();
   return {
     element: h("div", { class: "camera-part" },
-      h("p", { class: "quiet", text: "Which colour each foot has. Pick it in the picture, then look through the frames and widen or narrow it." }),
+      h("p", { class: "quiet", text: "Here you set the colour of each foot. Press Pick colour, then click on the foot in the picture. Look at other pictures and adjust the colour until the foot is found in each picture." }),
       h("div", { class: "camera-row" }, buttons.element, picking.button, mask), ...fields.elements, found.element),
     enter() {
       isOn = true;
@@ -137,7 +137,7 @@ export function feetPart(draft, stage) {
  *   each new picture: whether it has its own colours
  */
 export function colourPicking(picture, { changed, take }) {
-  const button = h("button", { type: "button", text: "Pick colour", "aria-pressed": "false", title: "Then click on this foot in the picture" });
+  const button = h("button", { type: "button", text: "Pick colour", "aria-pressed": "false", title: "Press this button, then click on the foot in the picture" });
   let [hasOwnColours, clicked] = [false, null];
   const isOn = () => button.getAttribute("aria-pressed") === "true";
 
@@ -152,7 +152,7 @@ export function colourPicking(picture, { changed, take }) {
     clicked = null;
     const range = rangeAt(picture, place);
     if (!range) {
-      toast("This place is grey, black or white: it has no hue to look for. Click on the foot's coloured sole.", { of: "studio" });
+      toast("The place you clicked is grey, black or white. Click on the coloured sole of the foot.", { of: "studio" });
       return;
     }
     turn(false);

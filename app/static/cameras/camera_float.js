@@ -61,7 +61,7 @@ function build(store, id) {
   const image = h("img", { alt: "", draggable: "false" });
   const note = h("p", { class: "quiet", role: "status" });
   const close = h("button", { type: "button", class: "plain icon-only", "aria-label": "Close the camera's picture", on: { click: () => shut() } }, icon("close"));
-  const title = h("header", { tabindex: "0", role: "group", data: { arrows: "" }, title: "Drag, or arrow keys, to move it; its corner, or plus and minus, for its size" }, dot, name, word, close);
+  const title = h("header", { tabindex: "0", role: "group", data: { arrows: "" }, title: "Drag here to move the picture, or press the arrow keys. Drag the corner to resize the picture, or press + and −" }, dot, name, word, close);
   const element = h("section", { class: "camera-float" }, title, image, note);
   let [isClosed, streams] = [false, false];
 
@@ -70,7 +70,7 @@ function build(store, id) {
     const camera = cameras?.find((one) => one.id === id);
     if (!camera) return;
     element.setAttribute("aria-label", `Camera ${camera.name}`);
-    title.setAttribute("aria-label", `Camera ${camera.name}, moved by the arrow keys, sized by plus and minus`);
+    title.setAttribute("aria-label", `Camera ${camera.name}: the arrow keys move the picture, plus and minus resize the picture`);
     setText(name, camera.name);
     dot.dataset.tone = cameraTone(camera);
     setText(word, cameraLabel(camera));

@@ -5,7 +5,7 @@ export const FOOT_NAMES = ["Foot 1, green", "Foot 2, red", "Foot 3, orange", "Fo
 export const USES = [["under", "under the platform"], ["side", "from the side"]];
 
 const TONES = { live: "good", starting: "accent", idle: "quiet", unplugged: "bad" };
-const STATES = { live: "live", starting: "starting", idle: "there", unplugged: "unplugged" };
+const STATES = { live: "live", starting: "starting", idle: "connected", unplugged: "unplugged" };
 
 export const cameraTone = ({ state }) => TONES[state] ?? "quiet";
 export const cameraLabel = ({ state, recording }) => (recording ? "recording" : STATES[state] ?? state);

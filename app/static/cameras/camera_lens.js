@@ -10,15 +10,17 @@ const FIELD = { min: "3", max: "30", step: "1", required: true };
 const SHARP_PX = 1;
 
 function cornersField(name, value, changed) {
-  const input = h("input", { type: "number", ...FIELD, value: String(value), "aria-label": name, title: "Where four squares meet, inside the board: one fewer than squares" });
+  const input = h("input", { type: "number", ...FIELD, value: String(value), "aria-label": name, title: "An inner corner is a point where four squares meet. A side with 9 squares has 8 inner corners" });
   input.addEventListener("change", changed);
   return { input, label: h("label", {}, h("span", { text: name }), input) };
 }
 
 function lensText({ lens }) {
-  if (!lens) return "No lens correction: use it only where straight lines are straight in the picture.";
-  if (lens.rms_px === null) return "This lens came without a measured error.";
-  return `The pictures agree within ${fixed(lens.rms_px, 2)} px${lens.boards ? `, ${lens.boards} of them` : ""}.${lens.rms_px > SHARP_PX ? " That is a large error: take sharper pictures of a flat board." : ""}`;
+  if (!lens) return "There is no lens correction. Make one if straight lines look bent in the picture.";
+  if (lens.rms_px === null) return "The error of this lens correction is not known.";
+  const from = lens.boards ? `, computed from ${lens.boards} pictures` : "";
+  const advice = lens.rms_px > SHARP_PX ? " This error is large. Take sharper pictures of a flat board." : "";
+  return `The mean error of the lens correction is ${fixed(lens.rms_px, 2)} px${from}.${advice}`;
 }
 
 /** A picture's address as one that can be sent back: the server straightens it. */
@@ -51,7 +53,7 @@ function straightening(draft, stage) {
       return (await setupApi.straight(draft.state.setup.lens, plain.startsWith("data:") ? plain : await dataOf(plain))).picture;
     },
     show({ lens }) {
-      setAllowed(button, lens ? null : "There is no lens yet.", "Lines that are straight in the world become straight");
+      setAllowed(button, lens ? null : "There is no lens correction yet.", "Corrects the picture, so that straight lines look straight");
       if (!lens && isOn()) turn(false);
     },
     end: () => button.setAttribute("aria-pressed", "false"),
@@ -66,10 +68,10 @@ function straightening(draft, stage) {
  */
 export function lensPart(draft, stage) {
   let [isOn, shown] = [false, null];
-  const list = h("ul", { class: "camera-boards", "aria-label": "Pictures of the board found" });
+  const list = h("ul", { class: "camera-boards", "aria-label": "Pictures searched for the checkerboard" });
   const [status, words] = [h("p", { class: "quiet", role: "status" }), h("p", { class: "quiet", role: "status" })];
   const straight = straightening(draft, stage);
-  const without = h("button", { type: "button", class: "link", text: "Without a lens", on: { click: () => draft.change({ lens: null }) } });
+  const without = h("button", { type: "button", class: "link", text: "Remove the lens correction", on: { click: () => draft.change({ lens: null }) } });
 
   const book = checkerboardBook({
     changed: () => showCheckerboards(),
@@ -88,7 +90,7 @@ export function lensPart(draft, stage) {
     const actions = { remove: attempt((board) => book.remove(board)), show: (board) => { shown = { board, frame: stage.frame }; stage.refresh(); } };
     list.replaceChildren(...book.boards.map((board) => checkerboardRow(board, book.rmsOf(board), actions)));
     const count = book.boards.filter(({ found }) => found).length;
-    if (book.boards.length && count < LEAST_CHECKERBOARDS) setText(words, `The board is found in ${count} of ${book.boards.length} pictures; at least ${LEAST_CHECKERBOARDS} are needed, flat, whole and sharp.`);
+    if (book.boards.length && count < LEAST_CHECKERBOARDS) setText(words, `The checkerboard was found in ${count} of ${book.boards.length} pictures. At least ${LEAST_CHECKERBOARDS} pictures must show the whole checkerboard, flat and sharp.`);
     else show(draft.state);
   }
 
@@ -106,7 +108,7 @@ export function lensPart(draft, stage) {
   draft.watch(({ setup }) => [setup.lens], (state) => { if (isOn) { showCheckerboards(); show(state); } });
   return {
     element: h("div", { class: "camera-part" },
-      h("p", { class: "quiet", text: "Wide lenses bend straight lines. Pictures of a checkerboard in different places and at different angles measure by how much. To go on without these pictures, open Place." }),
+      h("p", { class: "quiet", text: "A wide-angle lens bends straight lines in the picture. To correct the picture, add pictures of a checkerboard at different places and angles. To skip the lens correction, open Place." }),
       columns.label, rows.label, checkerboardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight.button, without)),
     enter() {
       isOn = true;

@@ -12,7 +12,7 @@ import { openStage } from "../pictures/picture_stage.js";
 import "../pictures/picture_style.js";
 
 const LOOK_WIDTH = 1280;
-const HELP = "Start the studio with --camera NAME=FILE to have a video file in a camera's place, or plug a camera in.";
+const HELP = "Plug in a camera. To use a video file instead of a camera, start the studio with --camera NAME=FILE.";
 
 /** Puts a camera that the server sent into the page's state. */
 function accept(store, camera) {
@@ -22,7 +22,7 @@ function accept(store, camera) {
 function recordSwitch(change) {
   const input = h("input", { type: "checkbox", role: "switch" });
   input.addEventListener("change", () => change({ records: input.checked }));
-  return { input, label: h("label", { class: "tick", title: "A recording begins and ends with each run; a camera under the platform makes a trial of it" }, input, "Record with the run") };
+  return { input, label: h("label", { class: "tick", title: "Records a video of each run. If the camera is under the platform, the studio makes a trial from the video" }, input, "Record each run") };
 }
 
 /** One camera's line; it is changed in place, so that what is focused stays so. */
@@ -36,16 +36,17 @@ function cameraRow(store, id, { watch, setUp }) {
     }
   });
   const [dot, name, word, sentence] = [h("span", { class: "dot" }), h("b"), h("span", { class: "word" }), h("p", { class: "why" })];
-  const use = h("select", { title: "From under the platform the feet are tracked; from the side is for looking and for the record" }, ...USES.map(([value, text]) => h("option", { value, text })));
-  const setup = h("select", { title: "How this camera sees the platform" });
+  const use = h("select", { title: "Under the platform: the studio tracks the feet. From the side: the studio only shows and records the picture" }, ...USES.map(([value, text]) => h("option", { value, text })));
+  const setup = h("select", { title: "Lens correction, place of the platform and colours of the feet" });
   const records = recordSwitch(change);
   use.addEventListener("change", () => change({ use: use.value }));
   setup.addEventListener("change", () => change({ setup: setup.value }));
   const button = (text, title, act) => h("button", { type: "button", class: "link", text, title, on: { click: act } });
   const setupLine = h("label", {}, h("span", { text: "Setup" }), setup);
-  const adjust = button("Set up…", "Lens, place of the platform, colours of the feet, on the live picture", () => setUp(now()));
-  const looking = button("Look", "Its live picture, large, with the feet that are found", () => watch(now()));
-  const float = button("Beside the scene", "Its live picture in a corner of the 3D scene", () => toggleFloat(store, id));
+  const adjust = button("Set up…", "Set the lens correction, the place of the platform and the colours of the feet on the live picture", () => setUp(now()));
+  const looking = button("Look", "Shows the live picture and the feet that are found in "
+    + "it", () => watch(now()));
+  const float = button("Beside the scene", "Shows the live picture of this camera in a corner of the 3D scene", () => toggleFloat(store, id));
   const element = h("li", { class: "camera" }, h("div", { class: "run-line" }, dot, name, word), sentence,
     h("label", {}, h("span", { text: "Seen" }), use), setupLine, records.label, h("div", { class: "camera-row" }, looking, float, adjust));
 
@@ -56,7 +57,7 @@ function cameraRow(store, id, { watch, setUp }) {
     setText(word, cameraLabel(camera));
     setText(sentence, camera.state === "unplugged" ? camera.sentence : "");
     use.value = camera.use;
-    [[use, "seen"], [setup, "setup"], [records.input, "record with the run"]].forEach(([one, text]) => one.setAttribute("aria-label", `${camera.name}, ${text}`));
+    [[use, "seen"], [setup, "setup"], [records.input, "record each run"]].forEach(([one, text]) => one.setAttribute("aria-label", `${camera.name}, ${text}`));
     const options = [["", "none yet"], ...setups.map((one) => [one.id, one.setup.name])];
     if (setup.dataset.options !== JSON.stringify(options)) {
       setup.dataset.options = JSON.stringify(options);
@@ -122,7 +123,7 @@ export const watchCamera = attempt(async (page, camera) => {
   if (isOld()) return;
   const [feet, words] = [feetList(), h("p")];
   const stage = openStage(cameraSource(camera), 0, lost);
-  const standing = camera.use === "under" && !camera.setup ? "Without a setup no feet are looked for." : "Live, as the studio sees it.";
+  const standing = camera.use === "under" && !camera.setup ? "This camera has no setup, so the studio cannot find the feet." : "This is the live picture of the camera.";
 
   function lost(why) {
     words.className = why === null ? "quiet" : "why";

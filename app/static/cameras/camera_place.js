@@ -10,9 +10,9 @@ const SQUARE = [[-5, -5], [5, -5], [5, 5], [-5, 5]];
 const ROUGH_MM = 1;
 
 const PRESETS = {
-  square: { text: "10 cm square, centred", help: "Four corners, each at 5 cm from the platform's centre along x and y", places: SQUARE },
-  corner: { text: "10 cm square, corner", help: "Four corners of a square whose first corner is the origin", places: SQUARE.map(([x, y]) => [x + 5, y + 5]) },
-  grid: { text: "etched 1 cm grid", help: "Any crossings; from the fifth on the nearest crossing is proposed", places: null },
+  square: { text: "10 cm square, centred", help: "Click four corners. Each corner is 5 cm from the platform's centre along x and along y", places: SQUARE },
+  corner: { text: "10 cm square, corner", help: "Click the four corners of a square. The first corner is the origin", places: SQUARE.map(([x, y]) => [x + 5, y + 5]) },
+  grid: { text: "etched 1 cm grid", help: "Click any crossings of grid lines. From the fifth point on, the studio proposes x and y", places: null },
 };
 
 const written = ([x, y]) => `x ${fixed(x, 1)}, y ${fixed(y, 1)} cm`;
@@ -29,8 +29,8 @@ function proposal(preset, points, pixel) {
 function asking(preset, points) {
   const { places } = PRESETS[preset];
   if (places && points.length < places.length) return `Click the corner at ${written(places[points.length])}.`;
-  if (points.length < 4) return `Click a crossing and write its place beside it; ${4 - points.length} more are needed.`;
-  return "More points make it more exact: click further crossings.";
+  if (points.length < 4) return `Click a crossing of grid lines, then type its x and y into the table. Points still needed: ${4 - points.length}.`;
+  return "To make the fit more exact, click more points whose x and y you know.";
 }
 
 function drawGrid(drawing, { setup, answer }) {
@@ -61,9 +61,12 @@ function axisNames(picture) {
 }
 
 function fitText({ view }, count) {
-  if (!view) return count < 4 ? "" : "These points do not fix a plane. Move one of them.";
-  if (count === 4) return `Four points always fit: a fifth shows how well. A pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
-  return `Points lie within ${fixed(view.worst_mm, 2)} mm; a pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
+  if (!view) return count < 4 ? "" : "The place of the platform cannot be computed from these points. "
+    + "Move one of the points.";
+  const scale = `One pixel shows ${fixed(view.mm_per_pixel, 2)} mm of the platform.`;
+  if (count === 4) return "Four points always fit exactly. A fifth point shows the error of the fit. "
+    + `${scale}`;
+  return `The largest error of a point is ${fixed(view.worst_mm, 2)} mm. ${scale}`;
 }
 
 /** The points as a table with editable places. */
@@ -156,7 +159,7 @@ export function placePart(draft, stage) {
   draft.watch(({ setup, answer }) => [setup, answer], show);
   return {
     element: h("div", { class: "camera-part" },
-      h("p", { class: "quiet", text: "Where the platform is in the picture: points whose places are known. The loupe helps to hit them; arrow keys move a point by a pixel." }),
+      h("p", { class: "quiet", text: "Click points on the platform whose x and y you know. From these points the studio computes where the platform is. A magnifier helps you to aim. The arrow keys move a point by one pixel." }),
       h("label", {}, h("span", { text: "Points are" }), preset), ask, table.element, fit, clear),
     enter() {
       isOn = true;

@@ -11,7 +11,11 @@ import "../pictures/picture_style.js";
 export const announceTrial = attempt(async (id, open) => {
   const trial = await trialApi.read(id);
   if (!trial.run || !trial.source?.camera) return;
-  toast(`The run of ${trial.gait_name} was recorded: ${fixed(trial.figures.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm.${trial.plan?.astray_sentence ? ` ${trial.plan.astray_sentence}` : ""}`, { action: { label: "Trial of this run", act: () => open({ trial: id }) } });
+  const walked = `The robot walked ${fixed(trial.figures.distance, 1)} of the wanted ${fixed(trial.expected_cm, 1)} cm.`;
+  const sentences = [`The run of “${trial.gait_name}” was recorded.`, walked, trial.plan?.astray_sentence];
+  toast(sentences.filter(Boolean).join(" "), {
+    action: { label: "Trial of this run", act: () => open({ trial: id }) },
+  });
 });
 
 /** Announces a note on a recording once, such as why there is no trial of it. */
@@ -28,7 +32,7 @@ export function announceRecording({ id, name, sentence }, open) {
  * @param {(wanted: {trial: string}|{video: string}) => void} open
  */
 export function recordingLine(run, open) {
-  const line = h("div", { class: "run-recorded", role: "group", "aria-label": "Recorded with this run" });
+  const line = h("div", { class: "run-recorded", role: "group", "aria-label": "Recordings of this run" });
   const link = (text, wanted, title) => h("button", { class: "link", text, title, on: { click: () => open(wanted) } });
   attempt(async () => {
     const [{ trials }, videos] = await Promise.all([trialApi.list(), videoApi.ofRun(run)]);

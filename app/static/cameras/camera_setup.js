@@ -75,7 +75,7 @@ function sizeNote(draft, stage) {
     const { size } = draft.state.setup;
     const { width, height } = stage.picture.size;
     const differs = stage.picture.image.src && size && (size[0] !== width || size[1] !== height);
-    setText(note, differs ? `This setup belongs to pictures of ${size.join(" × ")} px; this one has ${width} × ${height} px. Use the camera as it was, or make another setup.` : "");
+    setText(note, differs ? `This setup was made for pictures of ${size.join(" × ")} px, but the picture has ${width} × ${height} px. Set the camera to the old size, or make another setup.` : "");
   };
   stage.picture.onView(tell);
   draft.watch(({ setup }) => [setup.size], tell);
@@ -112,7 +112,7 @@ export function openSetup(page, { answer, source, frame = 0, back }) {
   const element = h("div", { class: "trial-form camera-setup" },
     h("button", { type: "button", class: "link", text: back.text, on: { click: leave } }),
     h("label", {}, h("span", { text: "Setup" }), nameField(draft)), state, sizeNote(draft, stage), ...tabs.elements,
-    h("div", { class: "run-files" }, h("a", { href: setupApi.exportPath(answer.id), download: "", text: "As a file", title: "For the command line: footfall trial VIDEO --setup FILE" }),
+    h("div", { class: "run-files" }, h("a", { href: setupApi.exportPath(answer.id), download: "", text: "As a file", title: "Saves the setup as a file for the command line: footfall trial VIDEO --setup FILE" }),
       h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this setup", on: { click: remove } }), h("button", { type: "button", class: "primary", text: "Done", on: { click: leave } })));
   page.show(element, () => stage.close());
   tabs.open(firstPart(answer));
@@ -126,7 +126,7 @@ async function conflict(store, error) {
   if (error.status !== CONFLICT) throw error;
   const now = await setupApi.read(store.state.id);
   store.set({ setup: now.setup, answer: now, revision: now.revision, kept: true });
-  toast(`The setup “${now.setup.name}” was changed elsewhere meanwhile; it is shown as it is now. Make your last change again.`, { tone: "bad", of: "studio" });
+  toast(`Somebody changed the setup “${now.setup.name}” on another page. You now see the new version. Make your last change again.`, { tone: "bad", of: "studio" });
 }
 
 /**

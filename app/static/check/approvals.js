@@ -7,7 +7,7 @@ import { clockTime, counted, fixed, shortHash } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
 
-const NOW = "the gait as it is";
+const NOW = "the gait as it is now";
 
 function figuresText({ figures, warnings }) {
   const texts = [

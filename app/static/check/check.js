@@ -22,10 +22,10 @@ function findingItem(finding, goTo) {
 function marginList(margins) {
   const rows = margins.flatMap(({ rule, margin, unit }) => {
     const shown = readable(margin, unit);
-    return [h("dt", { text: ruleName(rule), title: "How far the worst place stays from this rule's limit" }),
+    return [h("dt", { text: ruleName(rule), title: "Smallest distance to this rule's limit in the plan" }),
       h("dd", { text: shown.value, data: margin < 0 ? { broken: "" } : {} }), h("dd", { class: "unit", text: shown.unit })];
   });
-  return [h("h3", { text: "Margin to limits" }), h("dl", { class: "margins" }, ...rows)];
+  return [h("h3", { text: "Distance to the limits" }), h("dl", { class: "margins" }, ...rows)];
 }
 
 const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) => severity === "warning");
@@ -33,20 +33,21 @@ const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) 
 function summary(view, before) {
   const { verdict } = view;
   if (!verdict) {
-    const text = view.revoked ? `${view.revoked} Check it again.` : before?.word === "approved" ? "The gait changed, so it is no longer approved. Check it again."
-      : before ? `${capital(checkGone(view, before))}. Check it again.` : "Check tries every rule on the waypoints that would be sent.";
+    const text = view.revoked ? `${view.revoked} Check the gait again.` : before?.word === "approved" ? "The gait changed, so it is no longer approved. Check the gait again."
+      : before ? `${capital(checkGone(view, before))}. Check the gait again.` : "Check tests every rule on the waypoints that would be sent to the robot.";
     return h("p", { class: before || view.revoked ? "box-note" : "why", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
   }
   const warnings = warningsOf(verdict).length;
   const errors = verdict.findings.length - warnings;
   if (!errors && !warnings) return "";
   const counts = [errors && counted(errors, "error"), warnings && counted(warnings, "warning")].filter(Boolean).join(", ");
-  const text = verdict.passed ? `${counts} to look at before approval.` : `${counts}. Errors block approval.`;
+  const text = `${counts}. `
+    + `${verdict.passed ? "Read the findings before you approve." : "Errors block approval."}`;
   return h("p", { class: "box-note", data: { tone: verdict.passed ? "caution" : "bad" } }, h("b", { text }));
 }
 
-const WAYPOINTS_HELP = "Fingerprint (hash) of exactly the waypoints that may be sent; a waypoint is one message to the motors";
-const VERDICT_HELP = "Fingerprint (hash) of the check that was approved";
+const WAYPOINTS_HELP = "Hash (fingerprint) of the approved waypoints. A waypoint is one message to the motors";
+const VERDICT_HELP = "Hash (fingerprint) of the approved check";
 
 function approvalBox({ approval }) {
   if (!approval) return "";
@@ -59,7 +60,7 @@ function approvalBox({ approval }) {
 function whyNotCheck({ view, pending }) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The last edit is not accepted yet.";
-  if (view.plan?.live?.status === "infeasible") return "There is no motion to check. The Design step says what is missing and offers ways out.";
+  if (view.plan?.live?.status === "infeasible") return "There is no motion to check. The Design step shows what is wrong and suggests changes.";
   if (!view.plan || view.plan.refusal) return view.plan?.refusal?.sentence ?? "There is no plan to check. Optimise first.";
   return null;
 }
@@ -68,7 +69,7 @@ function whyNotApprove({ view, pending, seenWarnings }) {
   if (!view?.verdict || pending.length) return "Check this version first.";
   if (!view.verdict.passed) return "The check failed. Errors block approval.";
   if (view.approval) return `Already approved by ${view.approval.by}.`;
-  if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash) return "There are warnings. Read each one, then tick that you have seen them.";
+  if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash) return "There are warnings. Read each warning, then tick “I have seen …”.";
   return null;
 }
 
@@ -89,10 +90,10 @@ function warningTick(store) {
 
 async function approve(store) {
   const { selected, view } = store.state;
-  const by = await needOperator(store, "The approval is kept with your name, the time and the hash of what you approve.");
+  const by = await needOperator(store, "The studio saves your name and the time with the approval.");
   if (!by) return;
   if (store.state.selected !== selected || store.state.view?.plan?.hash !== view.plan.hash) {
-    toast("The gait changed meanwhile. Check it again.");
+    toast("The gait has changed since the check. Check the gait again.");
     return;
   }
   const approval = await api.approve(selected, by, view.verdict.hash, store.state.seenWarnings === view.verdict.hash);
@@ -124,12 +125,12 @@ export function mountCheck(store, edits, goTo) {
   store.watch(({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings], (state) => {
     tick.show(state);
     const { view, checked } = state;
-    setAllowed(checkButton, whyNotCheck(state), "Try every rule on the waypoints that would be sent");
+    setAllowed(checkButton, whyNotCheck(state), "Tests every rule on the waypoints that would be sent");
     const blocked = whyNotApprove(state);
-    setAllowed(approveButton, blocked, "Allow exactly these waypoints to be sent");
+    setAllowed(approveButton, blocked, "Allows exactly these waypoints to be sent to the robot");
     checkButton.classList.toggle("primary", !view?.verdict?.passed);
     approveButton.classList.toggle("primary", !blocked);
-    why.textContent = view?.approval ? "" : (blocked ?? "Any later edit takes the approval away, and so does a newer simulation.");
+    why.textContent = view?.approval ? "" : (blocked ?? "If you edit or simulate the gait later, you must approve it again.");
     if (!view) return;
     head.replaceChildren(summary(view, checked[view.id]));
     foot.replaceChildren(approvalBox(view));

@@ -12,9 +12,13 @@ const option = (name, factor = 1) => ({
 
 const FIELDS = [
   { label: "Merge within", name: "Merge waypoints within", unit: "mm", min: 0, max: 5, step: 0.1, decimals: 2, ...option("merge", 1000),
-    help: "A waypoint is one message with a stroke for every motor. Waypoints this close to the motors' straight path are left out. The robot stops at each waypoint, so fewer waypoints take less time. The robot counts a waypoint as reached within 1 mm anyway. 0 sends every sample" },
+    help: "A waypoint is one message with a stroke for every motor. The robot stops at each waypoint, so fewer waypoints "
+      + "take less time. Waypoints closer than this to the straight path of the motors are left out. With 0, "
+      + "every sample is sent. The robot itself accepts an error of 1 mm at each waypoint" },
   { label: "Stop bound", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
-    help: "Longest time until the robot hears Stop. The robot hears Stop only between moves, so long moves are cut into shorter ones, which costs time. Empty: no move is cut" },
+    help: "Longest time from Stop until the robot stops. The robot can only stop between two moves. "
+      + "Long moves are therefore cut into shorter moves, and the walk takes longer. "
+      + "If this field is empty, no move is cut" },
 ];
 
 /** What a move may last beyond its law, s, as the studio counts it (docs/firmware.md, Times). */
@@ -24,7 +28,7 @@ const bound = (value) => (value === null ? "none" : `${fixed(value)} s`);
 
 function costRow(cost) {
   const { stop_bound: limit, merged_seconds: merged, every_seconds: every, is_chosen: chosen } = cost;
-  const title = `${cost.merged_waypoints} waypoints merged, ${cost.every_waypoints} with every sample sent`;
+  const title = `Merged: ${cost.merged_waypoints} waypoints. Every sample: ${cost.every_waypoints} waypoints`;
   return h("tr", { data: chosen ? { chosen: "" } : {}, "aria-current": chosen ? "true" : null, title },
     h("th", { scope: "row", text: `${bound(limit)}${chosen ? " ✓" : ""}` }), h("td", { text: `${fixed(merged)} s` }), h("td", { text: `${fixed(every)} s` }), h("td", { text: `${seconds(cost.stop_seconds)} s` }));
 }
@@ -39,16 +43,16 @@ export function costTable(verdict) {
 }
 
 /** The robot hears Stop within the bound; its motors may take longer than their law says. */
-const stopText = (stop) => `Stop acts within ${seconds(stop)} s: the longest move, and ${OVERRUN} s that it may take longer than computed.`;
+const stopText = (stop) => `Stop acts within ${seconds(stop)} s. This is the time of the longest move plus a tolerance of ${OVERRUN} s.`;
 
 function inShort(view) {
   const plan = view?.plan;
   if (!plan?.waypoint_count) return "";
   const { waypoint_count: count, times, robot_seconds: takes, every_knot_seconds: every, stop_seconds: stop } = plan;
-  if (view.document.poses) return `${timesText(view)}. ${count} waypoints, one a pose. ${stopText(stop)}`;
-  const instead = Math.abs(every - takes) >= 0.5 ? ` (${fixed(every, 0)} s with every sample and no stop bound)` : "";
+  if (view.document.poses) return `${timesText(view)}. ${count} waypoints, one per pose. ${stopText(stop)}`;
+  const instead = Math.abs(every - takes) >= 0.5 ? ` (${fixed(every, 0)} s if every sample is sent without a stop bound)` : "";
   const lasts = timesText(view) || `About ${fixed(takes, 0)} s on the robot`;
-  return `${lasts}. ${count} waypoints of ${times.length} samples${instead}. ${stopText(stop)}`;
+  return `${lasts}. ${count} waypoints from ${times.length} samples${instead}. ${stopText(stop)}`;
 }
 
 /** Builds the two fields and the line of what they cost. */
@@ -63,5 +67,5 @@ export function sendingFields(store, edits) {
     merge.element.hidden = Boolean(document.poses);
   });
   store.watch(({ view }) => [view], ({ view }) => { line.textContent = inShort(view); });
-  return h("div", { class: "sending", role: "group", "aria-label": "How it is sent" }, h("div", { class: "fields" }, ...fields.map(({ element }) => element)), line);
+  return h("div", { class: "sending", role: "group", "aria-label": "How the plan is sent" }, h("div", { class: "fields" }, ...fields.map(({ element }) => element)), line);
 }

@@ -11,14 +11,18 @@ import { simulateState } from "../steps/step_states.js";
 import { reportParts } from "./simulation_report.js";
 
 const VARIATIONS = 64;
-const HELP = "Runs exactly the waypoints that would be sent, with the firmware's timing, in a model with masses, friction and bending legs";
-const AXIS = "Simulation runs in robot time; results are aligned to the plan's time axis.";
+const CHANGES = "friction, masses, motor speed, one weak motor, a slope of up to 1°, and softer or stiffer legs";
+const VARY_HELP = `Simulates the gait ${VARIATIONS} times with random changes: ${CHANGES}. `
+  + "Each press of this button uses the same random changes";
+const HELP = "Simulates exactly the waypoints that would be sent, with the timing of the firmware. "
+  + "The model has masses, friction and flexible legs";
+const AXIS = "The robot takes another time than the plan. Results are shown at the matching plan time.";
 
 function whyNot(state) {
   const { view, pending } = state;
   if (!view) return "No gait is selected.";
   if (pending.length) return "The last edit is not accepted yet.";
-  if (simulationJob(state)) return "This gait is being simulated. Cancel that or wait for it.";
+  if (simulationJob(state)) return "A simulation of this gait is running. Wait for it or cancel it.";
   if (!view.plan?.waypoints_hash) return view.plan?.refusal?.sentence ?? "There is no plan to simulate. Optimise first.";
   return null;
 }
@@ -72,10 +76,10 @@ function standing(state) {
   const { view, simulation } = state;
   const failed = failure(state);
   if (failed) return [failed, "bad"];
-  if (!view?.simulation) return ["Not simulated yet. Simulate shows whether the robot walks, tips, slips or lacks force, before anything moves.", "plain"];
-  if (!view.simulation.fresh) return ["The gait has changed: these figures belong to an older version. Simulate again.", "caution"];
+  if (!view?.simulation) return ["Not simulated yet. Press Simulate to see whether the robot would walk, tip over, slip or lack force.", "plain"];
+  if (!view.simulation.fresh) return ["The gait has changed, so these figures are out of date. Simulate again.", "caution"];
   if (!simulation) return ["Loading the simulation.", "plain"];
-  return view.plan?.source === "draft" ? ["Not sendable: this shows what would happen if the robot tried it.", "caution"] : null;
+  return view.plan?.source === "draft" ? ["This plan cannot be sent. The simulation shows what would happen on the robot.", "caution"] : null;
 }
 
 /** Builds the section; `goToTime` brings the playhead to a time of the plan. */
@@ -99,7 +103,7 @@ export function mountSimulate(store, goToTime) {
     const why = whyNot(state);
     setAllowed(run, why, HELP);
     run.classList.toggle("primary", simulateState(state).mark !== "done");
-    setAllowed(vary, why, `The same ${VARIATIONS} times with random changes (the same ones each time): friction, masses, motor speed, one weak motor, 1° of slope, softer legs`);
+    setAllowed(vary, why, VARY_HELP);
     progress.show(simulationJob(state));
   });
   store.watch((state) => [simulationOf(state), simulationOver(state), state.view, state.jobs, state.selected], (state) => {
@@ -120,15 +124,16 @@ const degrees = (radians) => fixed((radians * 180) / Math.PI);
 
 /** How a variation came out: what it is called, its sign, and its sentence. */
 function cameOf({ walks, fell, max_tilt: tilt, distance, feet_error: error, ended_early: early }) {
-  if (fell) return ["falls", "×", `falls over, leaning by ${degrees(tilt)}°`];
-  if (early) return ["falls", "×", `ends early: ${early.replace(/\.$/, "")}`];
-  const figures = `leans by ${degrees(tilt)}° at most, goes ${mm(distance)} mm, feet ${mm(error)} mm off`;
-  return walks ? ["walks", "", `walks: ${figures}`] : ["tips", "!", `tips onto a foot in the air: ${figures}`];
+  if (fell) return ["falls", "×", `The robot falls over, with a tilt of ${degrees(tilt)}°`];
+  if (early) return ["falls", "×", `The simulation ends early: ${early.replace(/\.$/, "")}`];
+  const figures = `Tilt up to ${degrees(tilt)}°, distance ${mm(distance)} mm, mean foot error ${mm(error)} `
+    + "mm";
+  return walks ? ["walks", "", `The robot walks. ${figures}`] : ["tips", "!", `The robot tips onto a foot that should be in the air. ${figures}`];
 }
 
 function cell(run, number) {
   const [came, sign, words] = cameOf(run);
-  const sentence = `Variation ${number + 1}: ${run.name}. It ${words}.`;
+  const sentence = `Variation ${number + 1}: ${run.name}. ${words}.`;
   return h("li", { class: "variation", title: sentence, "aria-label": sentence, tabindex: number ? "-1" : "0", text: sign, data: { came } });
 }
 
@@ -164,7 +169,7 @@ export function robustness() {
       known = variations;
       const walking = variations.runs.filter(({ walks }) => walks).length;
       setText(share, `${walking} of ${variations.count} walk (${fixed((100 * walking) / variations.count, 0)} %)`);
-      setText(description, "The variations change friction, masses, motor speed, one weak motor, 1° of slope and softer legs at random. Point at a cell to see one variation.");
+      setText(description, `Each variation has random changes: ${CHANGES}. Point at a cell to read about its variation.`);
       list.replaceChildren(...variations.runs.map(cell));
     },
   };

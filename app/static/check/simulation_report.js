@@ -10,7 +10,7 @@ const degrees = (radians, decimals = 1) => fixed((radians * 180) / Math.PI, deci
 /** A button to a moment of the simulated robot; `after` follows its time. */
 function goTo(simulation, moment, goToTime, what, after = "") {
   const time = planTimeOf(simulation, moment);
-  return h("button", { class: "link", text: `${fixed(time)} s${after}`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `On the plan's time axis; ${fixed(moment)} s in robot time`, on: { click: () => goToTime(time) } });
+  return h("button", { class: "link", text: `${fixed(time)} s${after}`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `Moves the playhead to this time of the plan. On the robot, the time is ${fixed(moment)} s`, on: { click: () => goToTime(time) } });
 }
 
 /** Foot, motor and value of the greatest of a value a motor. */
@@ -28,14 +28,14 @@ function rows(simulation, goToTime) {
   const [behind, force] = [greatestMotor(report.motor_error), greatestMotor(report.saturation)];
   const feetMean = report.feet_error.reduce((sum, error) => sum + error, 0) / report.feet_error.length;
   return [
-    ["Body, mean error", mm(report.body_error), "mm", null, "Mean distance of the body from the plan at the end of each move"],
-    ["Feet, mean error", mm(feetMean), "mm", null, "Mean distance of the feet from the plan at the end of each move"],
-    ["Distance", `${mm(report.distance)} of ${mm(report.planned_distance)}`, "mm", null, "Travel of the body from the first to the last waypoint, in the simulation and in the plan"],
-    ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "Turn of the body, in the simulation and in the plan"],
+    ["Body, mean error", mm(report.body_error), "mm", null, "Mean distance between the simulated and the planned body, at the end of each move"],
+    ["Feet, mean error", mm(feetMean), "mm", null, "Mean distance between the simulated and the planned feet, at the end of each move"],
+    ["Distance", `${mm(report.distance)} of ${mm(report.planned_distance)}`, "mm", null, "Distance that the body travels, in the simulation and in the plan"],
+    ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "Angle by which the body turns, in the simulation and in the plan"],
     ["Largest tilt", degrees(report.max_tilt), "°", at(report.max_tilt_time, "largest tilt"), "Angle between the body's axis and the vertical"],
-    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "How far the centre of mass stays inside the area between the feet that carry load; below 0 only the width of the soles keeps the robot from tipping"],
-    ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest distance of a motor from the firmware's ramp: ${motorText(behind)}`],
-    ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Share of the time in which a motor's force is at its limit: ${motorText(force)}`],
+    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "Smallest distance of the centre of mass from the edge of the area between the feet that carry load. Below 0, only the width of the soles keeps the robot from tipping"],
+    ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest distance by which a motor lags behind the motion that the firmware commands: ${motorText(behind)}`],
+    ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Share of the time during which the force of a motor is at its limit: ${motorText(force)}`],
   ];
 }
 
@@ -45,7 +45,7 @@ function wholeTable(simulation, goToTime) {
       h("th", { scope: "row", text: name }), h("td", { text: value }), h("td", { class: "unit", text: unit }), h("td", { class: "place" }, place)))));
 }
 
-const feetTable = ({ report }) => figureTable("Feet, mm", "Mean distance from the plan at waypoints, and how far each sole slid while it should have stood", ["", "error", "slip"],
+const feetTable = ({ report }) => figureTable("Feet, mm", "Error: mean distance of the foot from the plan, at the waypoints. Slip: how far the sole slid while the foot should have been still", ["", "error", "slip"],
   report.feet_error.map((error, foot) => [footName(foot), mm(error), mm(report.slip[foot])]));
 
 function findingItem(simulation, finding, goToTime) {
@@ -63,9 +63,9 @@ function findingItem(simulation, finding, goToTime) {
 export function reportParts(simulation, goToTime) {
   const { report, findings, physics } = simulation;
   return [
-    h("p", { class: "quiet number simulated-line", role: "status", "aria-label": "Simulated", text: physics.title, title: `Friction ${fixed(physics.friction, 2)}; ran ${fixed(report.realtime_factor, 0)} × as fast as the robot` }),
+    h("p", { class: "quiet number simulated-line", role: "status", "aria-label": "Simulated", text: physics.title, title: `Friction coefficient ${fixed(physics.friction, 2)}. The simulation ran ${fixed(report.realtime_factor, 0)} times as fast as the robot` }),
     ...(report.ended_early ? [h("p", { class: "why", text: report.ended_early })] : []),
     wholeTable(simulation, goToTime), feetTable(simulation),
-    ...(findings.length ? [h("ul", { class: "findings", role: "list", "aria-label": "Found in the simulation" }, ...findings.map((finding) => findingItem(simulation, finding, goToTime)))] : []),
+    ...(findings.length ? [h("ul", { class: "findings", role: "list", "aria-label": "Findings of the simulation" }, ...findings.map((finding) => findingItem(simulation, finding, goToTime)))] : []),
   ];
 }

@@ -92,8 +92,8 @@ function showSentence(row, sentence) {
 /** The text of a strip that has nothing to draw. */
 function emptyWords(state, plan) {
   if (!state.view) return "";
-  if (isRefusedDrawing(state)) return "No motion: the inspector says why.";
-  return plan?.refusal ? "No motion: the timeline shows the reason." : "No plan yet.";
+  if (isRefusedDrawing(state)) return "This gait has no motion. The inspector shows the reason.";
+  return plan?.refusal ? "This gait has no motion. The timeline shows the reason." : "No plan yet.";
 }
 
 /** Shows the legend of all plots: a name for each line style. A preview that has none keeps its row, so that nothing moves. */
@@ -175,7 +175,7 @@ function mountChoice(rows, redraw) {
   const choice = recalled("plots", Object.fromEntries(STRIPS.map(({ key, shown }) => [key, shown])));
   const apply = () => rows.forEach(({ kind, strip, label }) => { strip.hidden = label.hidden = !choice[kind.key]; });
   const menu = checkMenu({
-    id: "plots-menu", name: "Plots", help: "Which plots stand under the timeline",
+    id: "plots-menu", name: "Plots", help: "Choose the plots that are shown under the timeline",
     entries: STRIPS.map(({ key, name, help }) => ({ key, text: name, help, checked: choice[key] })),
     onChange(key, checked) {
       choice[key] = checked;

@@ -29,8 +29,9 @@ const mmRequested = (value) => (value ? value * 1000 : null);
  */
 export const STRIPS = [
   {
-    key: "margin", name: "Stability margin", title: "Margin, mm", unit: "mm", shown: true, lack: "No margin.",
-    help: "Distance of the centre of mass from the edge of the support polygon, in mm; below 0 the robot tips",
+    key: "margin", name: "Stability margin", title: "Margin, mm", unit: "mm", shown: true,
+    lack: "No stability margin.",
+    help: "Distance of the centre of mass from the edge of the support polygon, in mm. Below 0, the robot tips",
     of: (plan, options) => (plan.margin ? {
       series: [{ foot: null, motor: null, valueAt: (index) => (plan.margin[index] === null ? null : plan.margin[index] * 1000) }],
       low: 0, high: null, wanted: mmRequested(options?.margin), most: 1,
@@ -39,8 +40,9 @@ export const STRIPS = [
     isBad: ({ margin }, index) => (margin?.[index] ?? 0) < 0,
   },
   {
-    key: "strokes", name: "Strokes", title: "Strokes, mm", unit: "mm", shown: true, lack: "No strokes: the plan is out of the legs' reach.",
-    help: "Extension of every motor in mm, a row a foot: motor 1 thick, 2 medium, 3 thin",
+    key: "strokes", name: "Strokes", title: "Strokes, mm", unit: "mm", shown: true, lack: "No strokes: the legs cannot reach this motion.",
+    help: "Stroke of every motor in mm, with one row for each foot. Motor 1 has a thick line, "
+      + "motor 2 a medium line, motor 3 a thin line",
     of: ({ strokes_mm: strokes, stroke_limits_mm: limits }) => (strokes ? { series: aMotor(strokes), low: limits[0], high: limits[1], lanes: true } : null),
     now({ strokes_mm: strokes }, index) {
       const values = known(strokes?.[index] ?? []);
@@ -48,8 +50,8 @@ export const STRIPS = [
     },
   },
   {
-    key: "heights", name: "Foot heights", title: "Lift, mm", unit: "mm", shown: true, lack: "No feet.",
-    help: "Height of each foot over where it stands, in mm",
+    key: "heights", name: "Foot heights", title: "Height, mm", unit: "mm", shown: true, lack: "No feet.",
+    help: "Height of each foot above the ground, in mm",
     of: (plan) => {
       const rows = (plan.feet ?? []).map((_, index) => heightsAt(plan, index));
       return rows.length ? { series: aFoot(rows, (value) => value), low: null, high: null, floor: 0, most: 2, rises: true } : null;
@@ -58,13 +60,14 @@ export const STRIPS = [
   },
   {
     key: "foot_speeds", name: "Foot speeds", title: "Foot speed, mm/s", unit: "mm/s", shown: false, lack: "No feet.",
-    help: "Speed of each foot in mm/s, with the limit that the optimiser keeps",
+    help: "Speed of each foot in mm/s. The optimiser keeps the speed below the limit line",
     of: ({ foot_speeds_mm_s: speeds, speed_limits_mm_s: limits }) => (speeds ? { series: aFoot(speeds, (value) => value), low: null, high: limits.foot, floor: 0, rises: true } : null),
     now: ({ foot_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => at, "mm/s"),
   },
   {
-    key: "motor_speeds", name: "Motor speeds", title: "Motor speed, mm/s", unit: "mm/s", shown: false, lack: "No strokes: the plan is out of the legs' reach.",
-    help: "Speed of every motor in mm/s, a row a foot: motor 1 thick, 2 medium, 3 thin",
+    key: "motor_speeds", name: "Motor speeds", title: "Motor speed, mm/s", unit: "mm/s", shown: false, lack: "No strokes: the legs cannot reach this motion.",
+    help: "Speed of every motor in mm/s, with one row for each foot. Motor 1 has a thick line, "
+      + "motor 2 a medium line, motor 3 a thin line",
     of: ({ motor_speeds_mm_s: speeds, speed_limits_mm_s: limits }, options) =>
       (speeds ? { series: aMotor(speeds), low: null, high: limits.motor, wanted: mmRequested(options?.motor_speed), lanes: true } : null),
     now: ({ motor_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => Math.floor(at / MOTORS), "mm/s"),

@@ -8,10 +8,10 @@ import { latestOnly } from "../lib/latest_only.js";
 import { simulationOver } from "../state/simulation.js";
 
 const KINDS = {
-  before: { text: "Before the last edit", help: "The gait before the last edit, at the same time; while you drag, the gait before the drag" },
-  saved: { text: "As saved", help: "The gait as it was saved, at the same time" },
-  measured: { text: "As measured", shown: true, help: "The robot of the run that is open, by its measured strokes, with the plan's standing feet on the ground" },
-  simulated: { text: "As simulated", shown: true, help: "The robot as it leans and slips in the simulation; green rings are feet that carry load, red lines where feet slid" },
+  before: { text: "Before the last edit", help: "Shows the gait before the last edit. While you drag, shows the gait before the drag" },
+  saved: { text: "As saved", help: "Shows the gait as you last saved it" },
+  measured: { text: "As measured", shown: true, help: "Shows the robot of the open run. Its pose is computed from the measured strokes and the planned feet on the ground" },
+  simulated: { text: "As simulated", shown: true, help: "Shows the simulated robot, which can tilt and slip. Green rings mark feet that carry load. Red lines show where a foot slid" },
 };
 
 const keyOf = (view, of) => `${view.id} ${of} ${view.revision} ${view.saved_at}`;
@@ -22,7 +22,7 @@ function versionOf(kind, state) {
   if (!view) return { reason: "No gait is selected." };
   if (kind === "simulated") return simulationOver(state) ? { of: `${view.simulation.key} ${view.simulation.made}` } : { reason: "This plan has not been simulated." };
   if (kind === "measured") return run?.gait === view.id ? { of: run.id } : { reason: "No run of this gait is open. Open one under Runs." };
-  if (kind === "saved") return view.edited || live ? { of: "saved" } : { reason: "The gait is as it was saved." };
+  if (kind === "saved") return view.edited || live ? { of: "saved" } : { reason: "The gait has not changed since it was saved." };
   if (live) return { of: "present" };
   return view.changed ? { of: "before" } : { reason: "This gait has not been changed yet." };
 }
@@ -55,7 +55,8 @@ export function mountGhosts(store, preview) {
   const choice = recalled("ghosts", Object.fromEntries(Object.entries(KINDS).map(([kind, { shown = false }]) => [kind, shown])));
   const followers = {};
   const menu = checkMenu({
-    id: "ghosts-menu", name: "Ghosts", help: "Overlay earlier, simulated or measured robots",
+    id: "ghosts-menu", name: "Ghosts", help: "Shows a second robot: an earlier version, a simulation or a "
+      + "run",
     entries: Object.entries(KINDS).map(([key, { text, help }]) => ({ key, text, help, checked: choice[key], swatch: true })),
     onChange(kind, checked) {
       choice[kind] = checked;

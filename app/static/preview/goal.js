@@ -122,8 +122,8 @@ function turnDrag(edits, preview, goal) {
 function build() {
   const parts = {
     ring: svg("path", { class: "ring" }), way: svg("path", { class: "way-line" }), look: svg("path", { class: "look" }), start: svg("circle", { class: "start", r: 3 }),
-    goal: handle("goal-place", "Goal", "Drag it on the floor to change the step; arrow keys move it by 0.5 mm, with Shift by 5 mm"),
-    turn: handle("goal-turn", "Goal turn", "Drag it round the goal to change the turn; arrow keys turn by 1°, with Shift by 10°"),
+    goal: handle("goal-place", "Goal", "Drag the goal on the floor to change the step. The arrow keys change the step by 0.5 mm, with Shift by 5 mm"),
+    turn: handle("goal-turn", "Goal turn", "Drag this handle around the goal to change the turn. The arrow keys change the turn by 1°, with Shift by 10°"),
     label: h("span", { class: "goal-label" }),
   };
   byId("goal").replaceChildren(svg("svg", { "aria-hidden": "true" }, parts.ring, parts.way, parts.look, parts.start), parts.turn, parts.label, parts.goal);

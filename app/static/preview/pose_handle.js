@@ -85,7 +85,7 @@ function poseUnderHand(store, playback, plan) {
 function describe({ knob, label }, plan, index, pinned) {
   const name = `pose ${index + 1}${pinned ? ", pinned" : ""}`;
   const [along, sideways] = pinned ? [pinned.along, pinned.sideways] : offsetOf(plan, index);
-  label.textContent = pinned && isFarthest(pinned) ? `${name}, 30 mm at most` : name;
+  label.textContent = pinned && isFarthest(pinned) ? `${name}, at the limit of 30 mm` : name;
   knob.toggleAttribute("data-pinned", pinned !== null);
   knob.setAttribute("aria-valuenow", (sideways * 1000).toFixed(2));
   knob.setAttribute("aria-valuetext", `${name}: ${pinWords({ along, sideways })} of an even travel`);
@@ -94,7 +94,7 @@ function describe({ knob, label }, plan, index, pinned) {
 /** Lays the handle over the scene and keeps it where the camera sees the pose. */
 export function mountPoseHandle(store, edits, playback, preview) {
   const layer = byId("pose");
-  const knob = handle("pose-place", "Pose", "Drag it on the floor to move the body at this pose, which is then pinned; arrow keys move it by 0.5 mm, with Shift by 5 mm");
+  const knob = handle("pose-place", "Pose", "Drag this handle on the floor to move the body in this pose. The pose is then pinned. The arrow keys move the body by 0.5 mm, with Shift by 5 mm");
   knob.setAttribute("aria-valuemin", "-30");
   knob.setAttribute("aria-valuemax", "30");
   const label = h("span", { class: "goal-label" });

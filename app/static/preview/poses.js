@@ -6,18 +6,20 @@
  */
 
 export const VALUES_A_NODE = 7;
+const CUT_SHORT = "The poses of this plan are not complete. Reload the page.";
 
 export class PoseTable {
   /** @param {ArrayBuffer} buffer */
   constructor(buffer) {
     const length = buffer.byteLength < 4 ? 0 : new DataView(buffer).getUint32(0, true);
-    if (length === 0 || 4 + length > buffer.byteLength) throw new Error("The poses of this plan are cut short.");
+    if (length === 0 || 4 + length > buffer.byteLength) throw new Error(CUT_SHORT);
     const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     if (header.format !== "footfall-poses" || header.version !== 1) {
-      throw new Error(`Poses of an unknown kind (${header.format} ${header.version}); reload the page.`);
+      throw new Error(`The poses have an unknown format (${header.format} ${header.version}). `
+        + "Reload the page.");
     }
     const count = header.frames * header.nodes.length * VALUES_A_NODE;
-    if (buffer.byteLength < 4 + length + 4 * count) throw new Error("The poses of this plan are cut short.");
+    if (buffer.byteLength < 4 + length + 4 * count) throw new Error(CUT_SHORT);
     this.robot = header.robot;
     this.nodes = header.nodes;
     this.frames = header.frames;

@@ -141,7 +141,7 @@ export class Preview extends EventTarget {
     if (this.#bodyNode || this.route === "server") return Promise.resolve();
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
-        reject(new Error(`The 3D view did not start within ${timeoutMs / 1000} s; reload the page.`));
+        reject(new Error(`The 3D view did not start within ${timeoutMs / 1000} s. Reload the page.`));
       }, timeoutMs);
       this.addEventListener("ready", () => { clearTimeout(timer); resolve(); }, { once: true });
     });
@@ -383,6 +383,6 @@ export class Preview extends EventTarget {
 
 async function download(url) {
   const answer = await fetch(url);
-  if (!answer.ok) throw new Error(`The poses of this plan could not be loaded (${answer.status}); reload the page.`);
+  if (!answer.ok) throw new Error(`The poses of this plan could not be loaded (${answer.status}). Reload the page.`);
   return answer.arrayBuffer();
 }

@@ -7,7 +7,7 @@ import { attempt } from "../lib/toasts.js";
 
 /** Why a gait of the list cannot be added to a sequence for a robot; null where it can. */
 function whyNot({ part_refusal: refusal, robot: own }, robot) {
-  return refusal ?? (robot && own !== robot ? `for the robot ${own}` : null);
+  return refusal ?? (robot && own !== robot ? `made for the robot ${own}` : null);
 }
 
 function choice(line, robot) {
@@ -23,7 +23,8 @@ function choice(line, robot) {
  * @returns {HTMLElement}
  */
 export function partAdder(store, edits) {
-  const help = "A gait of the list; a sequence adds its parts. Gaits that cannot be parts say why.";
+  const help = "Choose the gait to add. A sequence adds all of its parts. "
+    + "If a gait cannot be added, the list shows the reason.";
   const select = h("select", { "aria-label": "Gait to add", title: help });
   const act = attempt(async () => {
     const [source, { selected: gait }] = [select.value, store.state];
@@ -31,7 +32,7 @@ export function partAdder(store, edits) {
     const { apply, label } = added(await api.document(source), source);
     await edits.edit(apply, label, { gait });
   });
-  const button = h("button", { text: "Add", title: "Add the chosen gait at the end", on: { click: act } });
+  const button = h("button", { text: "Add", title: "Adds the chosen gait at the end", on: { click: act } });
   store.watch(({ gaits, selected, view }) => [gaits, selected, isSequence(view?.document)], ({ gaits, selected, view }) => {
     if (!isSequence(view?.document)) return;
     const { robot } = gaits.find(({ id }) => id === selected) ?? { robot: null };

@@ -15,9 +15,9 @@ import { partAdder } from "./part_adder.js";
 import { partRows } from "./sequence_rows.js";
 import { SAMPLE_TIMES, sequenceTrouble } from "./sequence_trouble.js";
 
-const TEACH = "Each part begins where the one before has ended: feet stay, body and heading go on. One check and one approval are for all of it.";
-const OPTIMISE = "A sequence is made of its parts' motions, which follow every edit live. Optimise parts also improves the footholds of each part, with all its repetitions.";
-const ALL_EXACT = "Each part is optimised, made by hand or recorded.";
+const TEACH = "Each part starts with the feet, body and heading at the end of the part before. You check and approve the whole sequence once.";
+const OPTIMISE = "The motions of the parts follow every edit. Optimise parts also improves the footholds of each part, over all its repetitions.";
+const ALL_EXACT = "There is nothing to optimise. Each part is already optimised, made by hand or recorded.";
 
 function totals() {
   const element = h("dl", { class: "summary", "aria-label": "The whole sequence" });
@@ -40,13 +40,13 @@ function wholeOf({ body, heading, duration }) {
 function staleness(takeOver) {
   const text = h("span");
   const element = h("div", { class: "box-note", data: { tone: "caution" }, hidden: true }, text,
-    h("div", { class: "buttons" }, h("button", { text: "Take all over", title: "Take every changed gait over as it is now", on: { click: () => takeOver() } })));
+    h("div", { class: "buttons" }, h("button", { text: "Update all", title: "Copies the current version of each changed gait into the sequence", on: { click: () => takeOver() } })));
   return {
     element,
     show(sources) {
       const changed = sources.filter((state) => state === "changed").length;
       element.hidden = changed === 0;
-      text.textContent = changed === 1 ? "One part comes from a gait that has changed since." : `${changed} parts come from gaits that have changed since.`;
+      text.textContent = changed === 1 ? "The gait of one part has changed since you added the part." : `The gaits of ${changed} parts have changed since you added the parts.`;
     },
   };
 }
@@ -59,7 +59,7 @@ async function createSequence(store) {
   const view = await api.sequence({ name: freeName(store.state, "Sequence"), parts: [{ gait: first.id }] });
   await selectGait(store, view.id);
   openStep("design");
-  if (shown && first !== shown) toast(`${shown.name} cannot be a part (${shown.part_refusal}), so the sequence begins with ${first.name}. Choose other gaits under “Gait to add”.`);
+  if (shown && first !== shown) toast(`“${shown.name}” cannot be a part (${shown.part_refusal}). The sequence begins with “${first.name}” instead. Choose other gaits under “Gait to add”.`);
 }
 
 /** What a sequence is offered: to optimise its parts. */
@@ -68,9 +68,9 @@ function exactParts(store) {
   onPress(button, attempt(() => api.optimiseParts(store.state.selected)), (why) => toast(why));
   store.watch((state) => [state.jobs, state.view, state.pending.length], ({ jobs, view, pending }) => {
     if (!isSequence(view?.document)) return;
-    const busy = jobs.some((job) => job.gait === view.id && jobIsOn(job)) && "Its parts are being optimised. Cancel the jobs or wait for them.";
+    const busy = jobs.some((job) => job.gait === view.id && jobIsOn(job)) && "The parts are being optimised. Wait for these jobs or cancel them.";
     const open = view.plan.parts.some(({ source }) => ["live", "draft"].includes(source));
-    setAllowed(button, busy || (pending.length ? "The last edit is not accepted yet." : open ? null : ALL_EXACT), "Run Optimise for each part that has no optimised motion yet");
+    setAllowed(button, busy || (pending.length ? "The last edit is not accepted yet." : open ? null : ALL_EXACT), "Optimises each part that has no optimised motion yet");
   });
   return h("div", { class: "sequence-only" }, button, h("p", { class: "why", text: OPTIMISE }));
 }
@@ -83,7 +83,7 @@ function exactParts(store) {
  * @param {{addNew: (entry: object) => void}} gaitTools
  */
 export function mountSequence(store, edits, playback, gaitTools) {
-  gaitTools.addNew({ text: "New sequence", help: "Begins with the shown gait; others are added in its panel", act: attempt(() => createSequence(store)) });
+  gaitTools.addNew({ text: "New sequence", help: "Makes a sequence that begins with the shown gait. You add more gaits in the inspector", act: attempt(() => createSequence(store)) });
   const take = async (part, resample) => acceptView(store, await api.refreshSequence(store.state.selected, part, resample));
   const takeOver = attempt(async (part = null) => {
     try {
@@ -126,13 +126,13 @@ const option = (name, factor = 1) => ({
 
 const FIELDS = [
   { label: "Body speed", name: "Body speed between parts", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1,
-    help: "Largest speed of the body where it moves over standing feet, or with them", ...option("body_speed", 1000) },
+    help: "Largest speed of the body while the robot changes from one part to the next", ...option("body_speed", 1000) },
   { label: "Clearance", name: "Clearance between parts", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
-    help: "How high a foot rises at least where it steps to another place", ...option("clearance", 1000) },
+    help: "How high each foot rises at least when it steps between two parts", ...option("clearance", 1000) },
   { label: "Stability margin", name: "Stability margin between parts", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
-    help: "Least distance of the centre of pressure from the support polygon's edge while feet step", ...option("margin", 1000) },
+    help: "Smallest allowed distance of the centre of pressure from the edge of the support polygon, while feet step between two parts", ...option("margin", 1000) },
   { label: "Phase length", name: "Phase length between parts", unit: "samples", min: 2, max: 50, step: 1, decimals: 0,
-    help: "Length of each stance and of each swing of those steps", ...option("phase_knots") },
+    help: "Length of each stance and swing, when feet step between two parts", ...option("phase_knots") },
 ];
 
 /** Builds the fields; `show` gives them the document. */

@@ -8,7 +8,8 @@ import { MOST_TIMES } from "../document/sequence_edits.js";
 const STATES = {
   live: ["live", "good"], optimised: ["exact", "good"], manual: ["by hand", "good"], recorded: ["recorded", "good"], draft: ["no motion", "bad"],
 };
-const HELP = "Drag to move it; Alt with Up or Down moves it, Delete takes it out, Enter shows where it begins";
+const HELP = "Drag the part to move it, or press Alt with Up or Down. Delete takes the part out. "
+  + "Enter moves the playhead to the start of the part";
 const DEGREES = 180 / Math.PI;
 
 /** Way, turn and time of a stretch of the plan, without what there is none of: "30.0 mm · 45° · 49.6 s". */
@@ -38,13 +39,13 @@ export function partRow(actions) {
   const lead = h("p", { class: "part-lead", role: "gridcell" });
   const [number, text] = [h("span", { class: "part-number" }), h("span", { class: "part-text" })];
   const name = h("div", { class: "part-name", role: "gridcell", tabindex: "-1" }, number, text);
-  const input = h("input", { type: "number", min: 1, max: MOST_TIMES, step: 1, title: `How often it runs, 1 to ${MOST_TIMES}` });
+  const input = h("input", { type: "number", min: 1, max: MOST_TIMES, step: 1, title: `How many times this part runs, 1 to ${MOST_TIMES}` });
   const [up, down] = [button("Move up", "up", () => actions.move(-1)), button("Move down", "down", () => actions.move(1))];
   const out = button("Take out", "close", actions.remove);
   const figures = h("span", { class: "number" });
   const [dot, word] = [h("span", { class: "dot" }), h("span", {})];
-  const over = h("button", { class: "link", text: "take over", title: "Take the gait over as it is now", on: { click: actions.takeOver } });
-  const through = h("button", { class: "link", text: "without a pause", title: "Let the repetitions follow each other without a pause again", on: { click: actions.runThrough } });
+  const over = h("button", { class: "link", text: "update", title: "Copies the current version of the gait into this part", on: { click: actions.takeOver } });
+  const through = h("button", { class: "link", text: "without a pause", title: "Joins the repetitions again, so that the robot does not pause between them", on: { click: actions.runThrough } });
   const refusal = refusalOf(input);
   const giveUp = () => {
     refusal.setError(null);
@@ -84,15 +85,16 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   Object.assign(row.input.dataset, { shown: String(part.times), part: title });
   if (row.refusal.hasError() && isAnother) row.giveUp();
   if (document.activeElement !== row.input && !row.refusal.hasError()) row.input.value = part.times;
-  setAllowed(row.up, index === 0 ? "It is the first part." : null, `Move ${title} up (Alt+Up)`);
-  setAllowed(row.down, index === count - 1 ? "It is the last part." : null, `Move ${title} down (Alt+Down)`);
-  setAllowed(row.out, count === 1 ? "A sequence has at least one part; delete the sequence instead." : null, `Take ${title} out (Delete)`);
+  setAllowed(row.up, index === 0 ? "This is the first part." : null, `Move “${title}” up (Alt+Up)`);
+  setAllowed(row.down, index === count - 1 ? "This is the last part." : null,
+    `Move “${title}” down (Alt+Down)`);
+  setAllowed(row.out, count === 1 ? "A sequence needs at least one part. Delete the sequence instead." : null, `Take “${title}” out (Delete)`);
   setText(row.figures, planned ? figuresOf(planned) : "");
   const [word, tone] = source === "changed" ? ["source changed", "caution"] : planned ? (STATES[planned.source] ?? [planned.source, "quiet"]) : ["…", "quiet"];
   row.dot.dataset.tone = tone;
   const isFromRest = Boolean(part.restarts) && part.times > 1;
   setText(row.word, isFromRest ? `${word}, each from rest` : word);
-  setAttribute(row.word, "title", source === "changed" ? "The gait that this part was copied from has a different motion now" : planned?.note);
+  setAttribute(row.word, "title", source === "changed" ? "This part was copied from a gait whose motion has changed since" : planned?.note);
   row.over.hidden = source !== "changed";
   row.through.hidden = !isFromRest || source === "changed";
 }

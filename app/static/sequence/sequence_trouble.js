@@ -6,9 +6,9 @@ import { h, setText } from "../lib/dom.js";
 /** What a refusal names that different sample times are the reason of. */
 export const SAMPLE_TIMES = "sample_time";
 
-const RESAMPLE = "Brings all parts to the sample time that the most of them have. Phases are rounded up to whole samples, "
-  + "so that nothing gets faster; optimised motions of the parts that change are computed anew. One undo step.";
-const RESTART = "Each repetition is the gait with its own motion, from rest to rest, as it is when it runs once. One undo step.";
+const RESAMPLE = "Gives all parts the sample time that most parts have. Phases are rounded up to whole samples, so no motion "
+  + "becomes faster. Optimised parts that change must be optimised again. One Undo reverts all of this.";
+const RESTART = "Each repetition starts and ends at rest, with the same motion as a part that runs once. One Undo reverts this.";
 
 /** The parts that have no motion without a pause but one of their own, counted from 0. */
 const restartable = (plan) => (plan?.parts ?? []).filter((part) => part.has_own_motion).map(({ part }) => part);

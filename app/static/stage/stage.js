@@ -125,7 +125,7 @@ export async function mountStage(store, edits, playback) {
     message(`The 3D scene could not be loaded: ${error.message}`);
     return null;
   }
-  preview.addEventListener("opening", () => message("The 3D scene of this robot is being loaded."));
+  preview.addEventListener("opening", () => message("The 3D scene of this robot is loading."));
   preview.addEventListener("ready", () => message(null));
   mountMeasuredRobot(store, preview);
   mountOverScene(store, preview, legend);

@@ -13,52 +13,54 @@ import { drawnPlan } from "../state/worked_plan.js";
 const ENTRIES = [
   {
     key: "robot", text: "Robot", shown: true, parts: ["robot"],
-    help: "Hide it to see everything on the floor; reloading the page brings it back",
+    help: "Hide the robot to see the whole floor. After a reload of the page, the robot is shown again",
   },
   {
     key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"],
-    help: "The area between the standing feet: teal, mustard where the centre of mass is near its edge, "
-      + "magenta where it is outside",
+    help: "The area between the feet on the ground. The colour is teal, or mustard if the centre of mass "
+      + "is near the edge, or magenta if the centre of mass is outside",
   },
   {
     key: "com", text: "Centre of mass", shown: true, parts: ["com"],
-    help: "A disc on the floor, and its path",
+    help: "Shows the centre of mass as a disc on the floor, with its path",
   },
   {
     key: "cop", text: "Centre of pressure", shown: true, parts: ["cop"],
-    help: "A diamond on the floor, and its path: where the ground pushes",
+    help: "Shows the point where the ground pushes on the robot, as a diamond on the floor, with its path",
   },
   {
     key: "traces", text: "Swings and footholds", shown: true, parts: ["traces", "footholds"],
-    help: "Paths of the feet, and a ring where each comes down",
+    help: "Shows the paths of the feet in the air, and a ring where a foot lands",
   },
   {
     key: "reach", text: "Reach of the feet", shown: false, parts: ["reach"],
-    help: "Where each foot can be at the body's present height: outlines on the floor and up to 12 mm over it",
+    help: "Outlines the area that each foot can reach at the present body height, on the floor and up to 12 mm above it",
   },
   {
     key: "shadow", text: "Contact shadows", shown: true, parts: ["shadow"],
-    help: "A soft shadow under each foot that stands",
+    help: "Shows a soft shadow under each foot on the ground",
   },
   {
     key: "labels", text: "Labels", shown: true, parts: [], layer: "foot-labels",
-    help: "Number and place of each foot; an arrow while it is lifted",
+    help: "Shows the number and place of each foot, with an arrow while the foot is in the air",
   },
   {
     key: "guides", text: "Arrow and scale", shown: true, parts: [], layer: "guides",
-    help: "The direction and length of a step, and 10 mm on the floor",
+    help: "Shows the direction and length of a step as an arrow, and a scale of 10 mm on the floor",
   },
   {
     key: "goal", text: "Goal", shown: true, parts: [], layer: "goal",
-    help: "Drag the goal to change the step and the turn. It is hidden where you look along the floor",
+    help: "Drag the goal to change the step and the turn. The goal is hidden if you look almost along the "
+      + "floor",
   },
   {
     key: "pose", text: "Pose", shown: true, parts: [], layer: "pose",
-    help: "Drag the body of the pose under the playhead, in a gait for the robot's clock",
+    help: "Drag this handle to move the body in the pose at the playhead. "
+      + "Only gaits for the robot's clock have this handle",
   },
 ];
 
-const NO_PRESSURE = "The centre of pressure is not known, because the accelerations of this motion are not known. Optimised and live plans have both.";
+const NO_PRESSURE = "The centre of pressure is known only for optimised and live plans. Its computation needs the accelerations of the motion.";
 
 /** Fetches the reach of the drawn plan while its layer is on. */
 function followReach(store, preview, isOn) {
@@ -107,7 +109,7 @@ export function mountTools(store, preview, look, onShow) {
     if (key === "reach") requestReach();
   };
   const menu = checkMenu({
-    id: "show-menu", name: "Show", help: "What is drawn in the 3D preview",
+    id: "show-menu", name: "Show", help: "Choose what the 3D preview shows",
     entries: ENTRIES.map(({ key, text, help }) => ({ key, text, help, checked: choice[key] })),
     onChange(key, checked) {
       choice[key] = checked;

@@ -160,7 +160,7 @@ export function numberField(store, edits, field) {
   const handle = h("span", { class: "name drag", text: field.label });
   const refusal = refusalOf(input);
   const limit = limitHint(store, field);
-  const element = h("label", { class: "field", title: `${field.help} (${field.min} to ${field.max} ${field.unit}). Drag the name to change it` },
+  const element = h("label", { class: "field", title: `${field.help} (${field.min} to ${field.max} ${field.unit}). Drag the name to change the value` },
     handle, h("span", { class: "box", data: { unit: field.unit } }, input), limit.element, refusal.element);
   let value = null;
   let written = "";

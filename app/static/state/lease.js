@@ -7,7 +7,7 @@ import { needOperator } from "./operator.js";
 import { acceptRobot, runIsOn } from "./store.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const FREE = "No one is in control. Connecting or arming gives you control.";
+const FREE = "No one is in control. You get control when you press Connect or Arm.";
 
 const isMine = (lease) => lease?.page === pageId();
 const isTaken = (lease) => Boolean(lease?.page);
@@ -29,7 +29,7 @@ export function holderSentence(robot) {
 /** Asks for the robot, gives it, keeps it, takes it over or lets it go, in the name of who sits here. */
 function handOver(store, act) {
   return attempt(async () => {
-    if (!(await needOperator(store, "Others see who is in control."))) return;
+    if (!(await needOperator(store, "Other people see the name of the person in control."))) return;
     acceptRobot(store, await api.lease(act, store.state.operator));
   });
 }
@@ -55,7 +55,7 @@ function takeOverQuestion(store) {
     open({ currentTarget }) {
       const { robot } = store.state;
       const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run continues, and you can pause it." : "";
-      setText(sentence, `${robot.lease.name} cannot move the robot any more.${run} Look at the robot before you go on.`);
+      setText(sentence, `If you take control, ${robot.lease.name} can no longer move the robot.${run} Look at the robot before you take control.`);
       opener = currentTarget;
       element.hidden = false;
       no.focus();

@@ -23,7 +23,7 @@ export function limitHint(store, field) {
       asked = mine;
       const value = await api.limit(store.state.selected, { document, which: field.limit }, mine.signal).catch(() => null);
       if (asked !== mine || value === null) return;
-      element.textContent = `Up to ${fixed(field.fromSI(value))} ${field.unit}`;
+      element.textContent = `Possible up to ${fixed(field.fromSI(value))} ${field.unit}`;
       element.hidden = false;
     },
     end() {

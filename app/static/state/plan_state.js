@@ -1,7 +1,7 @@
 /** The state of a plan in a word or two, with its tone. */
 
 const TEXTS = {
-  live: ["Plan found", "good"], optimised: ["Optimised", "good"], manual: ["By hand", "good"], sequence: ["Sequence", "good"], iterate: ["An iteration, not the plan", "caution"],
+  live: ["Plan found", "good"], optimised: ["Optimised", "good"], manual: ["By hand", "good"], sequence: ["Sequence", "good"], iterate: ["Optimiser iteration", "caution"],
   recorded: ["Recorded", "good"], poses: ["Plan found", "good"],
 };
 const ROUNDING_M = 1e-6;

@@ -134,7 +134,7 @@ export function hasNoMotion(plan) {
 /** Why the check that was seen of a gait no longer counts. */
 export function checkGone(view, { revision }) {
   if (view.revision !== revision) return "the gait changed";
-  return view.simulation?.fresh ? "simulated since" : "the plan was made anew";
+  return view.simulation?.fresh ? "there is a newer simulation" : "the plan was computed again";
 }
 
 /** Takes over a view unless it is of another gait or older than what is shown. */

@@ -10,14 +10,14 @@ import { axisOf, columnTime } from "../state/time_axis.js";
 import { shownDocument } from "../state/store.js";
 import { announce, toast } from "../lib/toasts.js";
 
-const NOTHING = "Nothing is selected: choose cells first (Shift+arrows, Ctrl+drag, or the Select tool).";
+const NOTHING = "No cells are selected. Select cells first, with Shift+arrows, Ctrl+drag or the Select tool.";
 
 /** What of a block does not fit on the timeline from a cell on, in words; null where all of it fits. */
 function leftOut({ timeline }, [foot, sample], block) {
   const feet = foot + block.length - timeline.feet.length;
   const samples = sample + block[0].length - timeline.feet[0].length;
   const parts = [samples > 0 && `${counted(samples, "sample")} after the end`, feet > 0 && `${counted(feet, "row")} below the last foot`].filter(Boolean);
-  return parts.length ? `${parts.join(" and ")} did not fit and were left out.` : null;
+  return parts.length ? `The pasted cells did not fit. Left out: ${parts.join(" and ")}.` : null;
 }
 
 const focusOnGrid = () => Boolean(globalThis.document.activeElement?.closest("#timeline [role=gridcell]"));
@@ -89,7 +89,7 @@ export function createActions({ store, edits, playback, focused }) {
     const at = region() ? [region().feet[0], region().samples[0]] : focused();
     const apply = (now) => withBlock(now, at, block);
     const refusal = heldBack(document(), apply(document()));
-    if (refusal) return toast(refusal === "Nothing would change." ? "These cells have these values already." : refusal);
+    if (refusal) return toast(refusal === "Nothing would change." ? "These cells already have the pasted values." : refusal);
     const { feet } = document().timeline;
     const selection = {
       feet: [at[0], Math.min(at[0] + block.length, feet.length) - 1],

@@ -15,11 +15,11 @@ export const textOf = (block) => block.join("\n");
  */
 export function blockFrom(text) {
   const lines = text.split(/\r?\n/).map((line) => line.replace(/[\s,;]/g, "")).filter(Boolean);
-  if (lines.length === 0) return { reason: "The clipboard is empty: copy cells of the timeline first." };
+  if (lines.length === 0) return { reason: "The clipboard is empty. Copy cells of the timeline first." };
   const wrong = lines.findIndex((line) => /[^01]/.test(line));
-  if (wrong >= 0) return { reason: `The clipboard holds no timeline: line ${wrong + 1} has other characters than 1 (stance) and 0 (swing).` };
+  if (wrong >= 0) return { reason: `The clipboard has no timeline cells. Line ${wrong + 1} may contain only 1 (stance) and 0 (swing).` };
   const uneven = lines.findIndex((line) => line.length !== lines[0].length);
-  if (uneven >= 0) return { reason: `Line ${uneven + 1} of the clipboard has ${lines[uneven].length} samples, line 1 has ${lines[0].length}: make all lines equally long.` };
+  if (uneven >= 0) return { reason: `Line ${uneven + 1} of the clipboard has ${lines[uneven].length} samples, but line 1 has ${lines[0].length}. All lines must have the same length.` };
   return { block: lines };
 }
 

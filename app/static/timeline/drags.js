@@ -29,7 +29,8 @@ function withSwing(document, foot, from, to) {
 export const isLocked = ({ timeline }, [foot, sample]) => timeline.locked?.[foot]?.[sample] === "1";
 
 export function reportLocked([foot, sample]) {
-  toast(`Foot ${foot + 1}, sample ${sample + 1} is locked. Shift-drag from a locked cell, or K, unlocks.`);
+  toast(`Foot ${foot + 1}, sample ${sample + 1} is locked. To unlock cells, press K, or drag with Shift `
+    + "from a locked cell.");
 }
 
 /** Paints the value that the first cell gets; locked cells keep theirs. */

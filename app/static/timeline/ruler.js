@@ -46,7 +46,7 @@ function robotTicks(axis, plan, width) {
 
 /** In each move of a gait for the robot's clock, from when Stop is heard. */
 const heardMarks = (axis, plan) => (plan?.poses?.heard ?? []).map((time) => [fractionAt(axis, time), time]).filter(([left]) => isShown(left))
-  .map(([left, time]) => placed(h("b", { class: "heard", title: `From ${time.toFixed(1)} s on the robot hears Stop in this move` }), left));
+  .map(([left, time]) => placed(h("b", { class: "heard", title: `In this move, the robot can react to Stop from ${time.toFixed(1)} s on` }), left));
 
 /** Marks of findings; where several fall on one sample the errors lie on top. */
 function findingMarks(axis, verdict) {
@@ -57,7 +57,7 @@ function findingMarks(axis, verdict) {
 
 function loopMark(axis, [start, end]) {
   const from = Math.max(0, fractionAt(axis, start));
-  return placed(h("b", { class: "loop", title: `Plays from ${start.toFixed(1)} to ${end.toFixed(1)} s over and over (L ends it)` }), from, Math.min(1, fractionAt(axis, end)) - from);
+  return placed(h("b", { class: "loop", title: `Playback repeats from ${start.toFixed(1)} to ${end.toFixed(1)} s. Press L to end the loop` }), from, Math.min(1, fractionAt(axis, end)) - from);
 }
 
 function draw(state, playback, width, names) {

@@ -16,15 +16,15 @@ import { shownDocument } from "../state/store.js";
 import { partOf } from "../document/swings.js";
 import { announce, toast } from "../lib/toasts.js";
 
-const PAINTS = "With Alt or the key B held a drag paints.";
-const ELSEWHERE = "With Shift a drag locks, with Ctrl it selects.";
+const PAINTS = "Hold Alt or B and drag to paint.";
+const ELSEWHERE = "Drag with Shift to lock cells, with Ctrl to select cells.";
 const PAINT_HELP = {
-  stance: `Click for swing; drag to paint. ${ELSEWHERE}`, middle: `Drag to move the swing, click for stance. ${PAINTS}`,
-  end: `Drag to move this end of the swing, click for stance. ${PAINTS}`, locked: "Locked: it cannot be changed. Shift-drag from here unlocks.",
+  stance: `Click to change this cell to swing. Drag to paint cells. ${ELSEWHERE}`, middle: `Drag to move the swing. Click to change this cell to stance. ${PAINTS}`,
+  end: `Drag to move this end of the swing. Click to change this cell to stance. ${PAINTS}`, locked: "This cell is locked. To unlock cells, drag from here with Shift.",
 };
 const TOOL_HELP = {
-  select: "Drag to select; double click takes a swing; drag what is selected to move it, with Alt to copy it.",
-  lock: "Drag to lock; from a locked cell on to unlock.",
+  select: "Drag to select cells. Double-click to select a swing. Drag selected cells to move them, with Alt to copy them.",
+  lock: "Drag to lock cells. Start on a locked cell to unlock cells.",
 };
 
 function helpOf(tool, part, fixed) {

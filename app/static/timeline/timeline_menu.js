@@ -8,17 +8,21 @@ const COLUMNS = [
   [["Clipboard", ["copy", "cut", "paste", "duplicate", "stance"]], ["Cells", ["lock", "unlock", "all", "loop"]]],
   [["Shape", ["mirror", "reverse", "shift", "stretch", "rotate", "repeat"]], ["Samples", ["insert", "remove"]]],
 ];
-const HELP = "Copy, reverse, shift, repeat, insert … on the selection, or on the whole timeline";
+const HELP = "Opens the commands for the selected cells: copy, reverse, shift, insert and others. "
+  + "Without a selection, they change the whole timeline";
 const KEYS = { copy: "Ctrl+C", cut: "Ctrl+X", paste: "Ctrl+V", duplicate: "Ctrl+D", stance: "Delete", lock: "K", all: "Ctrl+A", loop: "L" };
 
 /** Further entries of the menu. */
 function plainItems(actions, selectAll) {
   return {
-    copy: { name: "Copy", help: "Keep the cells on the clipboard, as rows of 1 and 0", act: actions.copyNow },
-    cut: { name: "Cut", help: "Copy, then to stance", act: actions.cutNow },
-    paste: { name: "Paste", help: "At the selection's first cell, else at the focused cell", act: actions.pasteNow },
-    all: { name: "Select all", help: "Every foot and sample", act: selectAll },
-    loop: { name: "Loop", help: "Play the selected samples over and over; again ends it", act: actions.loop },
+    copy: { name: "Copy", help: "Copies the cells to the clipboard, as rows of 1 (stance) and 0 "
+      + "(swing)", act: actions.copyNow },
+    cut: { name: "Cut", help: "Copies the cells, then changes them to stance", act: actions.cutNow },
+    paste: { name: "Paste", help: "Pastes from the first selected cell on. "
+      + "Without a selection, pastes from the focused cell on", act: actions.pasteNow },
+    all: { name: "Select all", help: "Selects all samples of all feet", act: selectAll },
+    loop: { name: "Loop", help: "Repeats the selected samples during playback. "
+      + "Choose Loop again to end the loop", act: actions.loop },
   };
 }
 
@@ -70,7 +74,7 @@ function buildMenu({ actions, plain, choose, close }) {
       setAttribute(one.item, "aria-disabled", reason ? "true" : null);
       setAttribute(one.item, "aria-description", reason ?? one.help);
     }
-    setText(note, "What a line does is shown on the timeline while you point at it.");
+    setText(note, "Point at a command to see its result on the timeline.");
   };
   // The list may scroll: its first item is in the order of Tab.
   items[0].item.tabIndex = 0;

@@ -15,7 +15,7 @@ const buildCell = (_, sample) => h("div", { role: "gridcell", class: "cell", tab
 export function buildRow(foot) {
   const role = h("span", { class: "role" });
   const strip = h("div", { class: "cells", role: "presentation" });
-  const label = h("div", { class: "row-label", role: "rowheader", title: "Click: the whole row; with Shift more rows" },
+  const label = h("div", { class: "row-label", role: "rowheader", title: "Click to select this row. Click with Shift to select several rows" },
     h("span", { class: "foot-dot" }), h("span", { text: `Foot ${foot + 1}` }), role);
   const bars = buildBars();
   const row = h("div", { class: "timeline-row", role: "row", "aria-label": `Foot ${foot + 1}`, data: { foot: foot + 1 } },

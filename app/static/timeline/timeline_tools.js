@@ -8,9 +8,9 @@ import { OPERATIONS } from "../document/operations.js";
 import { toast } from "../lib/toasts.js";
 
 const TOOLS = {
-  paint: ["Paint", "Paint (B): click toggles, a drag paints or moves a swing. Shift-drag locks, Ctrl-drag selects"],
-  select: ["Select", "Select: drag a rectangle, double click takes a swing, drag what is selected to move it (Alt copies). Ctrl-drag selects in every tool"],
-  lock: ["Lock", "Lock: drag over cells that are to keep their value; from a locked cell on it unlocks. Shift-drag locks in every tool, K locks the selection"],
+  paint: ["Paint", "Paint (B): click a cell to change it, drag to paint cells or to move a swing. Drag with Shift to lock, with Ctrl to select"],
+  select: ["Select", "Select: drag to select cells, double-click to select a swing. Drag selected cells to move them, with Alt to copy them. In every tool, drag with Ctrl to select"],
+  lock: ["Lock", "Lock: drag to lock cells, so that they keep their value. Start on a locked cell to unlock cells. In every tool, drag with Shift to lock. K locks the selection"],
 };
 
 function toolGroup(store) {
@@ -47,11 +47,11 @@ function operationButton(store, actions, id, open) {
 
 function zoomGroup(store, zoom) {
   const button = (label, title, text, click) => h("button", { class: "icon-only", "aria-label": label, title, text, on: { click } });
-  const fit = h("button", { class: "fit", text: "Fit", title: "The whole timeline (F)" });
+  const fit = h("button", { class: "fit", text: "Fit", title: "Show the whole timeline (F)" });
   onPress(fit, zoom.fit);
-  store.watch((state) => [state.zoom], (state) => setAllowed(fit, state.zoom ? null : "All of it is shown.", "The whole timeline (F)"));
+  store.watch((state) => [state.zoom], (state) => setAllowed(fit, state.zoom ? null : "The whole timeline is already shown.", "Show the whole timeline (F)"));
   return h("div", { class: "segmented zoom", role: "group", "aria-label": "Zoom" },
-    button("Zoom out", "Zoom out (−, or Ctrl and the wheel)", "−", () => zoom.closer(false)), button("Zoom in", "Zoom in (+, or Ctrl and the wheel)", "+", () => zoom.closer(true)), fit);
+    button("Zoom out", "Zoom out (−, or Ctrl and the mouse wheel)", "−", () => zoom.closer(false)), button("Zoom in", "Zoom in (+, or Ctrl and the mouse wheel)", "+", () => zoom.closer(true)), fit);
 }
 
 /**

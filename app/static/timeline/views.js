@@ -29,7 +29,7 @@ export function openView(name) {
   followers.forEach((act) => act(name));
 }
 
-const NO_TABLE = "A sequence has no segment table of its own: its parts stand in the inspector.";
+const NO_TABLE = "A sequence has no segment table. The inspector lists the parts of the sequence.";
 
 /** Builds the tabs; a sequence has no segment table. */
 export function mountViews(store) {

@@ -91,7 +91,7 @@ function mountPinch(chart, zoom, { fractionOf, shownColumns, began }) {
 /** A bar under the plots that shows which part of the timeline is in the window; it can be dragged. */
 function mountBar(chart, zoom, store) {
   const thumb = h("div", { class: "zoom-thumb" });
-  const bar = h("div", { class: "zoom-bar", role: "scrollbar", "aria-label": "Shown part of the timeline", "aria-controls": "timeline", "aria-orientation": "horizontal", "aria-valuemin": 0, title: "Shown part of the timeline: drag it along; F shows all", hidden: true }, thumb);
+  const bar = h("div", { class: "zoom-bar", role: "scrollbar", "aria-label": "Shown part of the timeline", "aria-controls": "timeline", "aria-orientation": "horizontal", "aria-valuemin": 0, title: "Shown part of the timeline. Drag the bar to see another part, or press F to see the whole timeline", hidden: true }, thumb);
   chart.append(bar);
   let held = null;
   thumb.addEventListener("pointerdown", (event) => {

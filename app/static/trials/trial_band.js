@@ -35,7 +35,7 @@ function bandFromAbove(band) {
   const text = band.feet.map(({ end_spread_cm: spread }, foot) => `foot ${foot + 1} ends ± ${fixed(spread, 2)} cm`).join("; ");
   return h("figure", { class: "trial-plot" },
     svg("svg", { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Trials from above: ${text}` }, ...lines, ...drawn),
-    h("figcaption", { class: "quiet" }, `From above in the robot's frame, ${step} cm grid; pale is where the trials lie`, legend(kindsOf(band), TEXTS)));
+    h("figcaption", { class: "quiet" }, `Feet seen from above, in the robot's frame. Grid: ${step} cm. The pale area shows the spread of the trials.`, legend(kindsOf(band), TEXTS)));
 }
 
 /** The displacement of the feet over the iterations. */
@@ -51,10 +51,11 @@ function bandOverIterations({ feet, iterations, ...band }) {
     svg("polygon", { class: "spread", "data-foot": foot + 1, points: `${points(xs, way.low.map(toY))} ${points([...xs].reverse(), way.high.map(toY).reverse())}` }),
     ...(way.plan ? [line("plan", foot, way.plan)] : []), ...way.trials.map((one) => line("trial", foot, one)), line("mean", foot, way.mean),
   ]));
-  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, `Way of each foot along the ${band.has_plan ? "wanted" : "mean"} direction`, legend(kindsOf(band), TEXTS)));
+  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, `Distance of each foot along the ${band.has_plan ? "wanted" : "mean"} direction`, legend(kindsOf(band), TEXTS)));
 }
 
-const HELP = "Mean of the trials from begin to end along their direction; how far their ends lie from their mean (root of the mean square); and the plan";
+const HELP = "Mean: distance of the foot, averaged over the trials. Spread: distance of the end points from their mean "
+  + "(root mean square). Planned: distance of the foot in the plan";
 
 const spreadTable = ({ feet }) => figureTable("Ends of the trials, cm", HELP, ["", "mean", "spread", "planned"],
   feet.map(({ way, end_spread_cm: spread }, foot) => [footName(foot), ...[way.mean.at(-1), spread, way.plan?.at(-1) ?? null].map((value) => fixed(value, 2))]));
@@ -64,7 +65,7 @@ function choice(trials, open, changed) {
   const boxes = trials.map(({ id, name }, index) => {
     const box = h("input", { type: "checkbox", "aria-label": name, value: id, on: { change: changed } });
     box.checked = index < MOST_TOGETHER;
-    return { box, row: h("li", {}, h("label", {}, box), h("button", { class: "link", text: name, title: "Show this trial beside its plan", on: { click: () => open(id) } })) };
+    return { box, row: h("li", {}, h("label", {}, box), h("button", { class: "link", text: name, title: "Opens this trial and compares it with its plan", on: { click: () => open(id) } })) };
   });
   const element = h("ul", { class: "band-trials", role: "list", "aria-label": "Trials of the band" }, ...boxes.map(({ row }) => row));
   return { element, chosen: () => boxes.filter(({ box }) => box.checked).map(({ box }) => box.value) };

@@ -18,7 +18,9 @@ export const comparisonApi = {
   band: (ids) => request("GET", `/api/trials/band?${new URLSearchParams(ids.map((id) => ["trial", id]))}`),
 };
 
-const HELP = "Seconds from first to last frame, as planned, in physics and on the robot. Mean of the feet from first to last frame, angles on the platform. The last column is how far the feet are on the average from where the camera saw them, at the same share of each iteration";
+const HELP = "Time, and mean movement of the feet, from the first to the last frame. The angle is the direction on the "
+  + "platform. Last column: mean distance of the feet from the tracked feet, at the same phase of each "
+  + "iteration";
 
 function figures({ rows }) {
   const cells = (row) => [fixed(row.seconds, 1), fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];
@@ -30,7 +32,7 @@ function figures({ rows }) {
 const TEXTS = {
   absent: () => "The simulation of the sent waypoints is being requested.",
   running: ({ share }) => (share > 0 ? `The simulation is running: ${fixed(share * 100, 0)} %.` : "The simulation is waiting or starting."),
-  failed: ({ sentence }) => `No simulated feet: ${sentence} `,
+  failed: ({ sentence }) => `The feet could not be simulated. ${sentence} `,
   none: ({ sentence }) => sentence,
   done: ({ remark }) => remark ?? "",
 };

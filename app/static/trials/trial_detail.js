@@ -2,7 +2,7 @@
 
 import { trialApi } from "../api/trials.js";
 import { h, onPress, setText } from "../lib/dom.js";
-import { clockTime, fixed } from "../lib/format.js";
+import { clockTime, counted, fixed } from "../lib/format.js";
 import { figureTable, footName } from "../lib/tables.js";
 import { attempt } from "../lib/toasts.js";
 import { comparisonPart } from "./trial_comparison.js";
@@ -23,38 +23,38 @@ function movementTable(caption, help, figures, plan, columns) {
 }
 
 function iterationTable({ parts }) {
-  return figureTable("Iterations, first to last", "Mean of the feet's net movements in each iteration, its time and its speed", ["", "cm", "s", "mm/s"],
+  return figureTable("Iterations, first to last", "Mean movement of the feet from the first to the last frame of each iteration, with time and speed", ["", "cm", "s", "mm/s"],
     parts.map((part, index) => [{ text: `iteration ${index + 1}` }, fixed(part.net_distance, 2), fixed(part.seconds, 1), fixed(part.speed_mm_s, 2)]));
 }
 
 function slipTable({ slip }) {
-  return figureTable("Slip of standing feet, cm", "Farthest that each foot slid between its own steps", ["", "largest", "mean"],
+  return figureTable("Slip of standing feet, cm", "How far each foot slid on the ground between two of its steps", ["", "largest", "mean"],
     slip.map((slides, index) => [footName(index), fixed(Math.max(...slides), 2), fixed(slides.reduce((sum, value) => sum + value, 0) / slides.length, 2)]));
 }
 
 function facts(trial) {
   const rows = [
     ["By", trial.by || "–"], ["Added", clockTime(trial.made)], ["Gait", trial.gait_name || "–"], ["Wanted", `${fixed(trial.expected_cm, 1)} cm`],
-    ["Frames", `${trial.frames}, ${fixed(trial.frame_rate, 1)} a second`], ["Gaps", trial.filled ? `${trial.gaps.length}, ${trial.filled} places filled` : "none"],
-    ...(trial.plan ? [["Placement", `${fixed(trial.plan.turn_deg, 1)}°, feet ± ${fixed(Math.max(...trial.plan.gaps_cm) * 10, 1)} mm`, "How the plan is placed over the track: turned to fit the feet of the first frame best, with the largest remaining distance of a foot"]] : []),
+    ["Frames", `${trial.frames}, ${fixed(trial.frame_rate, 1)} a second`], ["Gaps", trial.filled ? `${trial.gaps.length} (${counted(trial.filled, "missing position")} filled in)` : "none"],
+    ...(trial.plan ? [["Placement", `${fixed(trial.plan.turn_deg, 1)}°, feet ± ${fixed(Math.max(...trial.plan.gaps_cm) * 10, 1)} mm`, "The plan is turned by this angle to fit the feet in the first frame. The second value is the largest distance that remains at a foot"]] : []),
   ];
   return h("dl", { class: "summary" }, ...rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { text: value, title: help ?? null })]));
 }
 
 function endsLine(trial, change) {
   if (trial.parts.length < 2) return null;
-  if (trial.ends_from === "run") return h("p", { class: "quiet", text: "The ends of iterations are the run's own." });
+  if (trial.ends_from === "run") return h("p", { class: "quiet", text: "The ends of the iterations come from the recorded run." });
   if (trial.ends_by_hand) {
     const again = h("button", { class: "link", text: "Find them again" });
     onPress(again, () => change({ ends: null }));
-    return h("p", { class: "quiet" }, "The ends of iterations were moved by hand. ", again);
+    return h("p", { class: "quiet" }, "The ends of the iterations were moved by hand. ", again);
   }
-  return h("p", { class: trial.is_clear ? "quiet" : "why", text: trial.is_clear ? "The ends of iterations were found from the feet's steps." : "The feet's steps overlap between iterations: look at their ends." });
+  return h("p", { class: trial.is_clear ? "quiet" : "why", text: trial.is_clear ? "The ends of the iterations were computed from the steps of the feet." : "The steps of two iterations overlap. Check the marks at the ends of the iterations." });
 }
 
 /** That no robot did it, where it is an example. */
 const exampleLine = ({ is_example: isExample }) => isExample
-  && h("p", { class: "why" }, exampleMark(), " No robot did this. It counts in no comparison of gaits, and nothing is learned from it.");
+  && h("p", { class: "why" }, exampleMark(), " This trial was simulated. The studio does not use it to compare gaits or to learn from trials.");
 
 /** That a trial is deleted, with a way back; nothing else can be done to it. */
 function deletedLine({ id, deleted }) {
@@ -66,9 +66,9 @@ function deletedLine({ id, deleted }) {
 
 function filesLine(trial, remove) {
   const at = `/api/trials/${encodeURIComponent(trial.id)}`;
-  const erase = h("button", { class: "link", text: "Delete", title: "Takes this trial out of the list; it can be brought back", on: { click: () => remove(trial) } });
-  return h("div", { class: "run-files" }, h("a", { href: `${at}/track.csv`, download: "", text: "Track as CSV", title: "cm; what was not seen is empty" }),
-    h("a", { href: `${at}/report`, download: "", text: "Report", title: "One HTML file with figures, plots, note, photos and origin, to open offline and to print" }), !trial.deleted && erase);
+  const erase = h("button", { class: "link", text: "Delete", title: "Removes this trial from the list. You can undo this", on: { click: () => remove(trial) } });
+  return h("div", { class: "run-files" }, h("a", { href: `${at}/track.csv`, download: "", text: "Track as CSV", title: "Places of the feet in cm. Where a foot was not seen, the cell is empty" }),
+    h("a", { href: `${at}/report`, download: "", text: "Report", title: "One HTML file with the figures, plots, note, photos and origin of this trial. You can open it offline and print it" }), !trial.deleted && erase);
 }
 
 /** Redraws the plots; the mark that had the focus has it again. */
@@ -112,8 +112,8 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })), exampleLine(now), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
     tail.replaceChildren(...[endsLine(now, (changes) => sync.change(changes)), comparison.element, iterationTable(now),
-      movementTable("Movement as published", "Largest excursions from the first frame; never negative. Angles on the platform. The planned motion by the same definition", now.figures, now.plan, published),
-      movementTable("Movement, first to last", "Where each foot is in the last frame, minus where it was in the first. Angle: the direction of this movement on the platform", now.figures, now.plan, net),
+      movementTable("Movement as published", "Distance as the publication defines it, from the largest displacements along x and y. It is never negative. The angle is the direction on the platform", now.figures, now.plan, published),
+      movementTable("Movement, first to last", "Movement of each foot from the first to the last frame. The angle is the direction of this movement on the platform", now.figures, now.plan, net),
       slipTable(now), filesLine(now, remove)].filter(Boolean));
     drawPlots();
     attempt(comparison.refresh)();
@@ -127,12 +127,12 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
   return { element, leave() { sync.leave(); comparison.leave(); scene.leave(); } };
 }
 
-const stretches = (count, what) => (count ? `${count} ${count === 1 ? "time" : "times"} ${what}` : null);
+const stretches = (count, what) => (count ? `${what}${count === 1 ? "" : `, ${count} times`}.` : null);
 
 /** How often a foot was out of sight, and how often something else was taken for it. */
 function sights({ unseen, false: wrong }) {
-  const words = [stretches(unseen.length, "a foot was not seen"), stretches(wrong.length, "something else was taken for a foot")].filter(Boolean);
-  return words.length ? `${words.join(", ")}; these places are filled by straight lines and marked.` : null;
+  const words = [stretches(unseen.length, "The camera did not see a foot"), stretches(wrong.length, "The studio mistook something else for a foot")].filter(Boolean);
+  return words.length ? `${words.join(" ")} These gaps are marked and filled with straight lines.` : null;
 }
 
 /**
@@ -144,9 +144,9 @@ function sourcePart(trial, open) {
   const { source, remarks, plan } = trial;
   const doubts = [...remarks, source ? sights(trial) : null, plan && !plan.fits ? plan.fit_sentence : null, plan?.astray_sentence].filter(Boolean);
   if (!source && !doubts.length) return null;
-  const video = source?.video && h("button", { class: "link", text: source.camera ? `Recording of ${source.camera}` : "Its video", title: "The frames that the feet were found in", on: { click: () => open(source.video) } });
+  const video = source?.video && h("button", { class: "link", text: source.camera ? `Recording of ${source.camera}` : "Video of this trial", title: "Opens the video in which the feet were tracked", on: { click: () => open(source.video) } });
   return h("div", { class: "trial-source" },
-    source && h("p", { class: "quiet" }, video, video && " · ", `tracked with “${source.setup_name}”, version ${source.setup_revision}`),
+    source && h("p", { class: "quiet" }, video, video && " · ", `tracked with the camera setup “${source.setup_name}”, version ${source.setup_revision}`),
     ...doubts.map((text) => h("p", { class: "why", data: { toneText: "caution" }, text })));
 }
 
@@ -157,10 +157,10 @@ function sourcePart(trial, open) {
  *   stays, and `offer` lets it be kept once more
  */
 function notePart(keep) {
-  const area = h("textarea", { "aria-label": "Note", rows: "2", maxlength: "4000", placeholder: "Note: floor, cable, what was seen" });
+  const area = h("textarea", { "aria-label": "Note", rows: "2", maxlength: "4000", placeholder: "Note: floor, cable, observations" });
   const words = h("span");
-  const mine = h("button", { class: "link", text: "Keep what I typed" });
-  const theirs = h("button", { class: "link", text: "Take that" });
+  const mine = h("button", { class: "link", text: "Save what I typed" });
+  const theirs = h("button", { class: "link", text: "Use the saved note" });
   const choice = h("p", { class: "why", role: "group", "aria-label": "Two notes", hidden: true }, words, " ", mine, " · ", theirs);
   let known = "";
 
@@ -168,7 +168,7 @@ function notePart(keep) {
 
   function offer() {
     choice.hidden = typed() === known;
-    setText(words, known ? `The note that is kept says “${known}”.` : "No note is kept.");
+    setText(words, known ? `The saved note is “${known}”.` : "The saved note is empty.");
   }
 
   area.addEventListener("change", () => { if (choice.hidden && typed() !== known) keep(typed()); });

@@ -30,15 +30,15 @@ function wantedCm(view) {
  */
 export function walkFields(store, kept = {}) {
   const { view } = store.state;
-  const expected = number("Wanted distance, cm", "Of the whole walk, all iterations together", kept.expected_cm ?? wantedCm(view) ?? "");
-  const iterations = number("Iterations", "How often every foot steps in the track", kept.iterations ?? view?.document?.iterations ?? 3, { step: "1", min: "1", max: "50" });
+  const expected = number("Wanted distance, cm", "Distance that the robot should walk, over all iterations together", kept.expected_cm ?? wantedCm(view) ?? "");
+  const iterations = number("Iterations", "How many times the gait is repeated in the track", kept.iterations ?? view?.document?.iterations ?? 3, { step: "1", min: "1", max: "50" });
   let isTyped = expected.input.value === "" || kept.expected_cm !== undefined;
   expected.input.addEventListener("input", () => { isTyped = true; });
   iterations.input.addEventListener("input", () => {
     const step = wantedCm(view) / (view?.document?.iterations || 1);
     if (!isTyped && iterations.input.valueAsNumber > 0) expected.input.value = Number((step * iterations.input.valueAsNumber).toFixed(2));
   });
-  const over = h("select", { "aria-label": "Compare with plan", title: "The plan that the tracks are compared with; it is kept with the trial" });
+  const over = h("select", { "aria-label": "Compare with plan", title: "The tracks are compared with this plan. The plan is saved with the trial" });
   const option = (value, text) => h("option", { value, text });
   let [runs, touched] = [[], false];
 
@@ -74,9 +74,12 @@ export function walkFields(store, kept = {}) {
  */
 export function trialForm({ store, all, done }) {
   const files = h("input", { type: "file", multiple: true, accept: ".csv,text/csv", "aria-label": "Track files", required: true });
-  const rate = number("Frames a second", "Of the recording; the files do not tell", FRAME_RATE);
-  const perCm = number("Pixels a centimetre", "Leave empty for tracks in centimetres", "", { required: false });
-  const [x, y] = [number("Centre x, px", "Pixel of the platform's centre", "", { required: false }), number("Centre y, px", "Pixel of the platform's centre; y runs downwards", "", { required: false })];
+  const rate = number("Frames a second", "Frame rate of the recording. The files do not contain the frame "
+    + "rate", FRAME_RATE);
+  const perCm = number("Pixels a centimetre", "Leave this field empty if the tracks are in centimetres", "", { required: false });
+  const [x, y] = [number("Centre x, px", "Horizontal pixel position of the platform's "
+    + "centre", "", { required: false }), number("Centre y, px", "Vertical pixel position of the platform's "
+    + "centre, counted from the top", "", { required: false })];
   const walk = walkFields(store);
 
   const keep = attempt(async (event) => {
@@ -86,14 +89,14 @@ export function trialForm({ store, all, done }) {
     for (const file of files.files) {
       added.push(await trialApi.add({ name: file.name.replace(/\.csv$/i, ""), csv: await file.text(), frame_rate: rate.input.valueAsNumber, pixels, ...walk.values() }));
     }
-    if (added.length > 1) toast(`${added.length} trials are kept.`);
+    if (added.length > 1) toast(`${added.length} trials were added.`);
     done(added);
   });
 
   const [expected, iterations, over] = walk.labels;
   return h("form", { class: "trial-form", on: { submit: keep } },
     h("button", { type: "button", class: "link", text: "All trials", on: { click: all } }),
-    h("p", { class: "quiet", text: "Foot tracks as CSV: X_D1, Y_D1, X_D2, … and a row a frame, in centimetres with gaps left empty, or in pixels with 0,0 as a gap." }),
+    h("p", { class: "quiet", text: "Choose CSV files with foot tracks. The columns are X_D1, Y_D1, X_D2, …, with one row for each frame. Where a foot was not seen, the cells are empty (tracks in centimetres) or 0 (tracks in pixels)." }),
     h("label", {}, h("span", { text: "Files" }), files), expected, iterations, rate.label, over,
     h("details", {}, h("summary", { text: "The files are in pixels" }), perCm.label, x.label, y.label),
     h("button", { class: "primary", text: "Add trials" }));

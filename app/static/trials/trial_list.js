@@ -8,11 +8,11 @@ import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
 
 const COLUMNS = [
-  { key: "gait_name", text: "gait", help: "Gait, and its step an iteration in cm: as planned, or without a plan as wanted" },
-  { key: "distance", text: "cm", help: "Distance as in the published tables: largest excursions; mean over trials" },
-  { key: "error_percent", text: "error %", help: "Distance beside what was wanted, %" },
-  { key: "angle_deg", text: "angle °", help: "Direction of the largest excursions on the platform, degrees" },
-  { key: "speed_mm_s", text: "mm/s", help: "Mean speed of an iteration" },
+  { key: "gait_name", text: "gait", help: "Gait, and its step length per iteration in cm. Without a plan, the wanted step length is shown" },
+  { key: "distance", text: "cm", help: "Distance as the published tables define it. Mean over the trials" },
+  { key: "error_percent", text: "error %", help: "Deviation from the wanted distance, in %" },
+  { key: "angle_deg", text: "angle °", help: "Direction of the movement on the platform, in degrees" },
+  { key: "speed_mm_s", text: "mm/s", help: "Mean speed over an iteration" },
 ];
 
 const order = { key: "gait_name", up: true };
@@ -39,7 +39,7 @@ function nameOf(group, groups) {
 
 function compareRow(group, groups, band) {
   const name = nameOf(group, groups);
-  const show = h("button", { class: "link", text: "Show band", "aria-label": `Show band of ${name}`, title: "The trials over each other: their mean way, how far they lie apart, and the plan", on: { click: () => band(group) } });
+  const show = h("button", { class: "link", text: "Show band", "aria-label": `Show band of ${name}`, title: "Draws the trials of this gait in one plot, with their mean, their spread and the plan", on: { click: () => band(group) } });
   return h("tr", {},
     h("th", { scope: "row" }, h("span", { text: name }), h("span", { class: "more quiet" }, `× ${group.trials.length}`, sparkline(group), show)),
     h("td", { text: spread(group.distance, group.distance_spread, 1) }),
@@ -55,7 +55,7 @@ function sorted(groups) {
 function comparedTable(groups, band) {
   const rows = h("tbody");
   const heads = COLUMNS.map(({ key, text, help }) => {
-    const button = h("button", { class: "plain", text, title: `${help}. Press to sort` });
+    const button = h("button", { class: "plain", text, title: `${help}. Press to sort by this column` });
     button.addEventListener("click", () => {
       Object.assign(order, { key, up: order.key === key ? !order.up : true });
       fill();
@@ -78,8 +78,10 @@ function emptyPart(open) {
   const button = h("button", { text: "Look at an example" });
   const words = h("p", { class: "quiet", role: "status", "aria-label": "Example" });
   const allow = (busy) => {
-    setAllowed(button, busy, "Simulates a walk of the library and keeps it as a trial, marked as an example");
-    setText(words, busy ?? "A few seconds. It can be deleted like any trial, and counts in no comparison.");
+    setAllowed(button, busy, "Simulates a walk of the library and saves the result as a trial. "
+      + "The trial is marked as an example");
+    setText(words, busy ?? "This takes a few seconds. You can delete the example like any trial. "
+      + "The example is not used to compare gaits.");
   };
   const make = attempt(async () => {
     // The list is drawn anew when the trial is there: only where the person has left it the example is not opened.
@@ -95,12 +97,12 @@ function emptyPart(open) {
   allow(null);
   onPress(button, make);
   return h("div", { class: "trial-empty" },
-    h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
+    h("p", { class: "teach", text: "There is no trial yet. Add the foot tracks of a recording. The page then shows how far, how fast and in which direction each foot moved, and compares the movement with the plan." }),
     h("div", { class: "buttons" }, button), words);
 }
 
 function trialRow(trial, open) {
-  const button = h("button", { class: "run-row", data: { trial: trial.id }, title: "Show this trial beside its plan", on: { click: () => open(trial.id) } },
+  const button = h("button", { class: "run-row", data: { trial: trial.id }, title: "Opens this trial and compares it with its plan", on: { click: () => open(trial.id) } },
     trial.is_example && h("span", { class: "run-line" }, exampleMark()),
     h("span", { class: "run-line" }, h("b", { text: trial.name }), h("span", { text: `${fixed(trial.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm` })),
     h("span", { class: "run-line quiet" }, h("span", { text: [trial.gait_name, trial.by, clockTime(trial.made)].filter(Boolean).join(" · ") })),
@@ -121,8 +123,8 @@ function listParts({ trials, compared, unreadable }, { open, band }) {
   oneTabStop(list);
   return [
     ...(trials.length ? [] : [emptyPart(open)]),
-    ...(groups.length ? [comparedTable(groups, band), h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
-      h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with the table, and the trials of each gait over each other" }))] : []),
+    ...(groups.length ? [comparedTable(groups, band), h("div", { class: "run-files" }, file("csv", "CSV", "Saves the table as a CSV file"), file("latex", "LaTeX", "Saves the table in LaTeX, for a paper"),
+      h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with this table, and one plot of the trials of each gait" }))] : []),
     list,
   ];
 }
@@ -150,9 +152,9 @@ export async function trialList({ store, open, add, band, videos, cameras, learn
   const forget = store.watch(({ trialChanges }) => [trialChanges], ({ trialChanges }) => { if (trialChanges !== first) attempt(fill)(); });
   const element = h("div", { class: "run-all" },
     h("div", { class: "trial-ways" }, h("button", { class: "primary", text: "Add trials…", on: { click: add } }),
-      h("button", { text: "From a video…", title: "The feet are found in a video of the robot from under its glass platform", on: { click: videos } }),
-      h("button", { class: "link", text: "Cameras", title: "The studio's cameras: live pictures, setups, recording with the run", on: { click: cameras } }),
-      h("button", { class: "link", text: "Learn from trials", title: "Physics parameters that no data sheet gives, fitted to what the robot did", on: { click: learn } })),
+      h("button", { text: "From a video…", title: "Tracks the feet in a video of the robot, taken from under the glass platform", on: { click: videos } }),
+      h("button", { class: "link", text: "Cameras", title: "Lists the cameras of the studio. Here you see live pictures, set up cameras and record runs", on: { click: cameras } }),
+      h("button", { class: "link", text: "Learn from trials", title: "Fits unknown physics parameters, such as floor friction, to the measured walks of the robot", on: { click: learn } })),
     body);
   return { element, leave() { begin(); forget(); } };
 }

@@ -38,13 +38,13 @@ function photoItem(trial, { id, caption, name, width, height }, number, refresh)
     picture.alt = field.value.trim() || name;
     announce("Caption kept.");
   }));
-  const erase = h("button", { class: "plain icon-only", "aria-label": `Delete photo ${number}`, title: "Takes this photo away; it can be brought back" }, icon("close"));
+  const erase = h("button", { class: "plain icon-only", "aria-label": `Delete photo ${number}`, title: "Deletes this photo. You can undo this" }, icon("close"));
   erase.addEventListener("click", attempt(async () => {
     await photoApi.remove(trial, id);
     await refresh();
     toast(`The photo “${words}” is deleted.`, { action: { label: "Undo", act: attempt(async () => { await photoApi.restore(trial, id); await refresh(); }) } });
   }));
-  return h("li", {}, h("a", { href: `${at}/picture`, target: "_blank", rel: "noopener", title: "Opens the photo in a tab of its own" }, picture), field, erase);
+  return h("li", {}, h("a", { href: `${at}/picture`, target: "_blank", rel: "noopener", title: "Opens the photo in a new tab" }, picture), field, erase);
 }
 
 /**
@@ -68,9 +68,9 @@ export function photosPart(trial) {
     }
   });
 
-  const ways = chooser("Add photos…", "PNG or JPEG; they can also be dropped here. Kept without the place and time that a camera writes into them", { multiple: true }, add);
+  const ways = chooser("Add photos…", "Add PNG or JPEG files, or drop them here. The studio removes the location and time stored in a photo", { multiple: true }, add);
   // A tablet's own camera; elsewhere it would be a second button for the same.
-  const camera = matchMedia("(pointer: coarse)").matches ? chooser("Take a photo", "With the camera of this device", { capture: "environment" }, add) : [];
+  const camera = matchMedia("(pointer: coarse)").matches ? chooser("Take a photo", "Takes a photo with the camera of this device", { capture: "environment" }, add) : [];
   const element = h("section", { class: "trial-photos", "aria-label": "Photos of this trial" }, h("div", { class: "photo-ways" }, h("span", { class: "quiet", text: "Photos" }), ...ways, ...camera), list);
   const hold = (on) => (event) => {
     event.preventDefault();

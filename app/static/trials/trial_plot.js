@@ -70,5 +70,5 @@ export function pathPlot(sources) {
   return h("figure", { class: "trial-plot" },
     svg("svg", { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Feet from above: ${text}` },
       ...lines, ...kinds.flatMap((kind) => sources[kind].feet.map(way(kind))), ...marks),
-    h("figcaption", { class: "quiet" }, `From above on the platform, ${step} cm grid`, legend([...kinds].reverse())));
+    h("figcaption", { class: "quiet" }, `Feet on the platform, seen from above. Grid: ${step} cm.`, legend([...kinds].reverse())));
 }

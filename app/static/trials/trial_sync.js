@@ -24,7 +24,7 @@ export function followTrial(store, first, onChange) {
   async function refused(error) {
     if (error.status !== CONFLICT) throw error;
     take(await trialApi.read(id));
-    const words = now.deleted ? error.message : `The trial “${now.name}” was changed elsewhere meanwhile; it is shown as it is now. Make your last change again.`;
+    const words = now.deleted ? error.message : `Somebody changed the trial “${now.name}” on another page. You now see the new version. Make your last change again.`;
     toast(words, { tone: "bad", of: "studio" });
   }
 

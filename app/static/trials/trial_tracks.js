@@ -10,8 +10,10 @@ const LAYER = "trial-tracks";
 /** How the robots stood, and what the rings are. */
 function words(tracks) {
   const [{ turn_deg: turn, gaps_mm: gaps }] = tracks;
-  const stood = tracks.length > 1 ? `${tracks.length} tracks, each turned back by the heading of its robot in the first frame.` : `Turned back by the robot's ${fixed(turn, 1)}°, feet of the first frame ± ${fixed(Math.max(...gaps), 1)} mm.`;
-  return `${stood} Rings follow the playhead; grey is unseen.`;
+  const stood = tracks.length > 1 ? `The ${tracks.length} tracks are rotated, so that all of them have the same heading in the first frame.`
+    : `The track is rotated back by ${fixed(turn, 1)}°, the heading of the robot in the first frame. `
+      + `The feet of this frame then fit within ${fixed(Math.max(...gaps), 1)} mm.`;
+  return `${stood} Rings show the feet at the playhead. Where a line is grey, the foot was not seen.`;
 }
 
 /**
@@ -29,8 +31,8 @@ export function tracksParts(store, showGait) {
     const box = h("input", { type: "checkbox", "aria-label": "Tracks in 3D" });
     box.checked = recalled(LAYER, { on: true }).on;
     const [note, other] = [h("p", { class: "quiet" }), h("p", { class: "why", hidden: true })];
-    const lap = h("select", { "aria-label": "Lap of the walk", title: "The walk repeats the plan several times. Choose which repetition is drawn over the shown gait" });
-    const ofLaps = h("label", { hidden: true }, "lap", lap);
+    const lap = h("select", { "aria-label": "Repetition of the walk", title: "The walk repeats the plan several times. Choose which repetition is drawn over the shown gait" });
+    const ofLaps = h("label", { hidden: true }, "repetition", lap);
     let tracks = [];
 
     function updateLaps() {

@@ -77,7 +77,7 @@ def test_a_run_is_recorded_and_its_note_leads_to_the_trial_with_its_figures(
     open_cameras(page)
     page.get_by_label("Glass, seen").select_option("under the platform")
     page.get_by_label("Glass, setup").select_option("under the glass")
-    records = page.get_by_role("switch", name="Glass, record with the run")
+    records = page.get_by_role("switch", name="Glass, record each run")
     records.click()
     expect(records).to_be_checked()
     camera(page, "Glass").get_by_role("button", name="Look").click()
@@ -92,10 +92,10 @@ def test_a_run_is_recorded_and_its_note_leads_to_the_trial_with_its_figures(
     expect(published.get_by_role("row", name="planned 1.0")).to_be_visible()
     mean = published.get_by_role("row", name="mean").get_by_role("cell").first
     assert 0.2 < float(mean.inner_text()) < 2.0
-    expect(panel(page)).to_contain_text("tracked with “under the glass”, version 1")
+    expect(panel(page)).to_contain_text("tracked with the camera setup “under the glass”, version 1")
 
     open_drawer(page, "Runs").locator(f"[data-run='{run}']").click()
-    recorded = page.get_by_role("group", name="Recorded with this run")
+    recorded = page.get_by_role("group", name="Recordings of this run")
     recorded.get_by_role("button", name="Recording of glass").click()
     expect(panel(page).get_by_role("button", name="Open its trial")).to_be_visible()
 
@@ -148,7 +148,7 @@ def test_an_unplugged_camera_that_is_looked_at_is_grey_and_says_why_until_it_is_
     page.get_by_label("Side, seen").select_option("from the side")
     camera(page, "Side").get_by_role("button", name="Look").click()
     stage = page.get_by_role("region", name="Picture", exact=True)
-    live = panel(page).get_by_text("Live, as the studio sees it.")
+    live = panel(page).get_by_text("This is the live picture of the camera.")
     expect(live).to_be_visible()
     expect(stage.locator("img")).to_have_js_property("naturalWidth", SIZE[0])
     away = film.with_suffix(".away")
@@ -167,7 +167,7 @@ def test_an_unplugged_camera_that_is_looked_at_is_grey_and_says_why_until_it_is_
 def test_a_camera_without_a_setup_does_not_record_for_tracking_and_says_why(page: Page) -> None:
     open_cameras(page)
     page.get_by_label("Side, seen").select_option("under the platform")
-    records = page.get_by_role("switch", name="Side, record with the run")
+    records = page.get_by_role("switch", name="Side, record each run")
     records.click()
     expect(page.get_by_role("alert").filter(has_text="setup")).to_be_visible()
     expect(records).not_to_be_checked()

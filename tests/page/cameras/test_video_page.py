@@ -219,8 +219,12 @@ def test_a_lens_is_found_from_pictures_of_a_board_and_straightens_what_is_shown(
         expect(panel(page).get_by_label(f"Inner corners, {side} side")).to_have_value(str(corners))
     straighten = panel(page).get_by_role("button", name="Straighten the picture")
     expect(straighten).to_have_attribute("aria-disabled", "true")
-    panel(page).get_by_label("Pictures of the board", exact=True).set_input_files(board_pictures(tmp_path))
-    boards = panel(page).get_by_role("list", name="Pictures of the board found").get_by_role("listitem")
+    panel(page).get_by_label("Pictures of the checkerboard", exact=True).set_input_files(
+        board_pictures(tmp_path)
+    )
+    boards = (
+        panel(page).get_by_role("list", name="Pictures searched for the checkerboard").get_by_role("listitem")
+    )
     expect(boards).to_have_count(len(TURNS) + 1)
     expect(boards.filter(has_text=re.compile(r"0\.\d\d px"))).to_have_count(len(TURNS))
     expect(boards.last).to_contain_text("not found")
@@ -228,8 +232,8 @@ def test_a_lens_is_found_from_pictures_of_a_board_and_straightens_what_is_shown(
     shown = page.locator(".video-image").get_attribute("src")
     straighten.click()
     expect(page.locator(".video-image")).not_to_have_attribute("src", shown or "")
-    panel(page).get_by_role("button", name="Without a lens").click()
-    expect(panel(page).get_by_text("No lens correction:")).to_be_visible()
+    panel(page).get_by_role("button", name="Remove the lens correction").click()
+    expect(panel(page).get_by_text("There is no lens correction.")).to_be_visible()
     expect(straighten).to_have_attribute("aria-disabled", "true")
 
 

@@ -102,8 +102,8 @@ def test_the_map_tells_walking_tipping_and_falling_apart_without_colour(page: Pa
     assert shown["words"] == "1 of 4 walk (25 %)"
     assert shown["came"] == ["walks", "falls", "tips", "falls"]
     assert shown["signs"] == ["", "×", "!", "×"]
-    assert shown["titles"][0].startswith("Variation 1: a. It walks: leans by 5.7°")
-    assert shown["titles"][3] == "Variation 4: d. It ends early: It fell."
+    assert shown["titles"][0].startswith("Variation 1: a. The robot walks. Tilt up to 5.7°")
+    assert shown["titles"][3] == "Variation 4: d. The simulation ends early: It fell."
 
 
 def test_a_rule_without_a_value_has_no_room_of_zero(page: Page) -> None:

@@ -26,13 +26,13 @@ def test_the_stop_bound_says_what_it_costs_and_a_change_takes_the_approval(
         bound = page.get_by_role("spinbutton", name="Stop bound", exact=True)
         bound.fill("")
         bound.press("Enter")
-        sending = page.get_by_role("group", name="How it is sent")
+        sending = page.get_by_role("group", name="How the plan is sent")
         expect(page.get_by_text("so it is no longer approved")).to_be_visible()
         shown = studio.ask("GET", "/api/gaits/walk/view").content
         assert shown["document"]["options"]["stop_bound"] is None
         assert shown["plan"]["waypoints_hash"] != before["plan"]["waypoints_hash"]
         assert shown["plan"]["robot_seconds"] < before["plan"]["robot_seconds"]
-        words = f"{shown['plan']['waypoint_count']} waypoints of {len(shown['plan']['times'])} samples"
+        words = f"{shown['plan']['waypoint_count']} waypoints from {len(shown['plan']['times'])} samples"
         expect(sending).to_contain_text(words)
         bound.fill("0.3")
         bound.press("Enter")

@@ -174,7 +174,7 @@ def test_a_changed_source_is_said_and_taken_over(page: Page, studio: StudioProce
     walk = studio.ask("GET", "/api/gaits/walk").content
     studio.ask("PUT", "/api/gaits/walk?label=Step", {**walk, "step": [0.004, 0.004, 0.0]})
     expect(rows(page).first).to_contain_text("source changed")
-    rows(page).first.get_by_role("button", name="take over").click()
+    rows(page).first.get_by_role("button", name="update").click()
     expect(rows(page).first).to_contain_text("live")
     expect(rows(page).first).to_contain_text("17.0 mm")
     studio.ask("POST", "/api/gaits/walk/undo")

@@ -312,13 +312,13 @@ def test_the_legend_is_of_the_iteration_looked_at_and_escape_leaves(page: Page) 
     expect(note).to_contain_text("Optimised in")
     slider.press("Home")
     verdict = page.get_by_role("status", name="Verdict")
-    expect(verdict).to_contain_text("not the plan")
+    expect(verdict).to_contain_text("optimiser iteration")
     expect(legend).not_to_have_text(last)
     word = verdict.get_by_role("button").first
     assert word.evaluate("text => text.scrollWidth <= text.clientWidth")
     expect(page.get_by_role("button", name="Back to the plan")).to_be_in_viewport(ratio=0.9)
     page.keyboard.press("Escape")
-    expect(verdict).not_to_contain_text("not the plan")
+    expect(verdict).not_to_contain_text("optimiser iteration")
 
 
 def test_a_focused_number_follows_another_tab_but_not_while_it_is_typed(
@@ -365,4 +365,4 @@ CHECKED = """async () => {
 
 def test_a_check_that_no_edit_took_away_is_not_said_to_be_gone_by_one(page: Page) -> None:
     said = page.evaluate(CHECKED)
-    assert said == ["simulated since", "the plan was made anew", "the gait changed"]
+    assert said == ["there is a newer simulation", "the plan was computed again", "the gait changed"]

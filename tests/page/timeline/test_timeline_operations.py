@@ -278,13 +278,13 @@ def test_cells_are_copied_as_text_and_pasted_where_they_fit(timeline: TimelinePa
     timeline.cell(4, 23).focus()
     timeline.press("Control+v")
     timeline.becomes(gait, *painted(pasted, 4, 23, 24, "0"))
-    timeline.said("2 samples after the end and 1 row below the last foot did not fit and were left out.")
+    timeline.said(
+        "The pasted cells did not fit. Left out: 2 samples after the end and 1 row below the last foot."
+    )
     timeline.undo().click()
     page.evaluate("() => navigator.clipboard.writeText('stance, swing')")
     timeline.press("Control+v")
-    timeline.said(
-        "The clipboard holds no timeline: line 1 has other characters than 1 (stance) and 0 (swing)."
-    )
+    timeline.said("The clipboard has no timeline cells. Line 1 may contain only 1 (stance) and 0 (swing).")
     timeline.becomes(gait, *pasted)
 
 
@@ -314,6 +314,6 @@ def test_cut_duplicate_and_delete_have_their_keys(timeline: TimelinePage) -> Non
     timeline.becomes(gait, *painted(FOUR, 2, 9, 9, "1"))
     timeline.page.get_by_role("slider", name="Playhead").focus()
     timeline.press("Delete")
-    timeline.said("Nothing is selected")
+    timeline.said("No cells are selected")
     timeline.press("Control+z", "Control+Shift+z", "Control+z", "Control+y")
     timeline.becomes(gait, *painted(FOUR, 2, 9, 9, "1"))

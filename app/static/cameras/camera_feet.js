@@ -49,8 +49,8 @@ function findings() {
 /** The fields of a foot's colour, and of the spots that may be any foot. */
 function colourFields(change, changeLimits) {
   const hue = hueRange((range, last) => change({ hue: range }, last));
-  const saturation = shareField("Least saturation", "How strong the colour of a pixel must be at least. Pale and grey pixels have a low saturation", (share, last) => change({ saturation: share }, last));
-  const value = shareField("Least brightness", "How bright a pixel must be at least. Pixels in a shadow are dark", (share, last) => change({ value: share }, last));
+  const saturation = shareField("Least saturation", "A pixel belongs to the foot only if its colour is at least this strong. Pale and grey pixels have a low saturation", (share, last) => change({ saturation: share }, last));
+  const value = shareField("Least brightness", "A pixel belongs to the foot only if it is at least this bright. Pixels in a shadow are dark", (share, last) => change({ value: share }, last));
   const limits = limitFields(changeLimits);
   return {
     elements: [hue.element, saturation.element, value.element, h("details", {}, h("summary", { text: "Which spots may be a foot" }), limits.element)],

@@ -16,10 +16,12 @@ function cornersField(name, value, changed) {
 }
 
 function lensText({ lens }) {
-  if (!lens) return "There is no lens correction. Make one if straight lines look bent in the picture.";
+  if (!lens) return "There is no lens correction. A lens correction is needed if straight lines look bent "
+    + "in the picture.";
   if (lens.rms_px === null) return "The error of this lens correction is not known.";
   const from = lens.boards ? `, computed from ${lens.boards} pictures` : "";
-  const advice = lens.rms_px > SHARP_PX ? " This error is large. Take sharper pictures of a flat board." : "";
+  const advice = lens.rms_px > SHARP_PX ? ` An error above ${SHARP_PX} px is large. `
+    + "Take sharper pictures of a flat board." : "";
   return `The mean error of the lens correction is ${fixed(lens.rms_px, 2)} px${from}.${advice}`;
 }
 

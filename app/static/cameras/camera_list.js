@@ -37,16 +37,16 @@ function cameraRow(store, id, { watch, setUp }) {
   });
   const [dot, name, word, sentence] = [h("span", { class: "dot" }), h("b"), h("span", { class: "word" }), h("p", { class: "why" })];
   const use = h("select", { title: "Under the platform: the studio tracks the feet. From the side: the studio only shows and records the picture" }, ...USES.map(([value, text]) => h("option", { value, text })));
-  const setup = h("select", { title: "Lens correction, place of the platform and colours of the feet" });
+  const setup = h("select", { title: "A setup has a lens correction, the place of the platform and the "
+    + "colours of the feet" });
   const records = recordSwitch(change);
   use.addEventListener("change", () => change({ use: use.value }));
   setup.addEventListener("change", () => change({ setup: setup.value }));
   const button = (text, title, act) => h("button", { type: "button", class: "link", text, title, on: { click: act } });
   const setupLine = h("label", {}, h("span", { text: "Setup" }), setup);
   const adjust = button("Set up…", "Set the lens correction, the place of the platform and the colours of the feet on the live picture", () => setUp(now()));
-  const looking = button("Look", "Shows the live picture and the feet that are found in "
-    + "it", () => watch(now()));
-  const float = button("Beside the scene", "Shows the live picture of this camera in a corner of the 3D scene", () => toggleFloat(store, id));
+  const looking = button("Look", "Shows the live picture with the feet that are found", () => watch(now()));
+  const float = button("Beside the scene", "Shows the live picture in a corner of the 3D scene", () => toggleFloat(store, id));
   const element = h("li", { class: "camera" }, h("div", { class: "run-line" }, dot, name, word), sentence,
     h("label", {}, h("span", { text: "Seen" }), use), setupLine, records.label, h("div", { class: "camera-row" }, looking, float, adjust));
 

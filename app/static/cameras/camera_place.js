@@ -64,8 +64,8 @@ function fitText({ view }, count) {
   if (!view) return count < 4 ? "" : "The place of the platform cannot be computed from these points. "
     + "Move one of the points.";
   const scale = `One pixel shows ${fixed(view.mm_per_pixel, 2)} mm of the platform.`;
-  if (count === 4) return "Four points always fit exactly. A fifth point shows the error of the fit. "
-    + `${scale}`;
+  const fourth = "Four points always fit exactly. A fifth point shows the error of the fit.";
+  if (count === 4) return `${fourth} ${scale}`;
   return `The largest error of a point is ${fixed(view.worst_mm, 2)} mm. ${scale}`;
 }
 

@@ -41,8 +41,8 @@ function summary(view, before) {
   const errors = verdict.findings.length - warnings;
   if (!errors && !warnings) return "";
   const counts = [errors && counted(errors, "error"), warnings && counted(warnings, "warning")].filter(Boolean).join(", ");
-  const text = `${counts}. `
-    + `${verdict.passed ? "Read the findings before you approve." : "Errors block approval."}`;
+  const advice = verdict.passed ? "Read the findings before you approve." : "Errors block approval.";
+  const text = `${counts}. ${advice}`;
   return h("p", { class: "box-note", data: { tone: verdict.passed ? "caution" : "bad" } }, h("b", { text }));
 }
 
@@ -130,7 +130,7 @@ export function mountCheck(store, edits, goTo) {
     setAllowed(approveButton, blocked, "Allows exactly these waypoints to be sent to the robot");
     checkButton.classList.toggle("primary", !view?.verdict?.passed);
     approveButton.classList.toggle("primary", !blocked);
-    why.textContent = view?.approval ? "" : (blocked ?? "If you edit or simulate the gait later, you must approve it again.");
+    why.textContent = view?.approval ? "" : (blocked ?? "After an edit or a new simulation, you must approve the gait again.");
     if (!view) return;
     head.replaceChildren(summary(view, checked[view.id]));
     foot.replaceChildren(approvalBox(view));

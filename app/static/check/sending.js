@@ -13,11 +13,12 @@ const option = (name, factor = 1) => ({
 const FIELDS = [
   { label: "Merge within", name: "Merge waypoints within", unit: "mm", min: 0, max: 5, step: 0.1, decimals: 2, ...option("merge", 1000),
     help: "A waypoint is one message with a stroke for every motor. The robot stops at each waypoint, so fewer waypoints "
-      + "take less time. Waypoints closer than this to the straight path of the motors are left out. With 0, "
-      + "every sample is sent. The robot itself accepts an error of 1 mm at each waypoint" },
+      + "take less time. A waypoint is left out if it is closer than this distance to the straight path of "
+      + "the motors. If the distance is 0, every sample is sent. The robot itself accepts an error of 1 mm "
+      + "at each waypoint" },
   { label: "Stop bound", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
-    help: "Longest time from Stop until the robot stops. The robot can only stop between two moves. "
-      + "Long moves are therefore cut into shorter moves, and the walk takes longer. "
+    help: "Longest time from the press of Stop until the robot stops. The robot can only stop between two "
+      + "moves. Long moves are therefore cut into shorter moves, and the walk takes longer. "
       + "If this field is empty, no move is cut" },
 ];
 
@@ -43,7 +44,7 @@ export function costTable(verdict) {
 }
 
 /** The robot hears Stop within the bound; its motors may take longer than their law says. */
-const stopText = (stop) => `Stop acts within ${seconds(stop)} s. This is the time of the longest move plus a tolerance of ${OVERRUN} s.`;
+const stopText = (stop) => `After Stop, the robot stops within ${seconds(stop)} s (longest move plus a tolerance of ${OVERRUN} s).`;
 
 function inShort(view) {
   const plan = view?.plan;

@@ -16,13 +16,14 @@ const VARY_HELP = `Simulates the gait ${VARIATIONS} times with random changes: $
   + "Each press of this button uses the same random changes";
 const HELP = "Simulates exactly the waypoints that would be sent, with the timing of the firmware. "
   + "The model has masses, friction and flexible legs";
-const AXIS = "The robot takes another time than the plan. Results are shown at the matching plan time.";
+const AXIS = "The timing of the robot differs from the timing of the plan. "
+  + "Results are shown at the matching time of the plan.";
 
 function whyNot(state) {
   const { view, pending } = state;
   if (!view) return "No gait is selected.";
   if (pending.length) return "The last edit is not accepted yet.";
-  if (simulationJob(state)) return "A simulation of this gait is running. Wait for it or cancel it.";
+  if (simulationJob(state)) return "Wait for the running simulation of this gait, or cancel it.";
   if (!view.plan?.waypoints_hash) return view.plan?.refusal?.sentence ?? "There is no plan to simulate. Optimise first.";
   return null;
 }
@@ -76,7 +77,7 @@ function standing(state) {
   const { view, simulation } = state;
   const failed = failure(state);
   if (failed) return [failed, "bad"];
-  if (!view?.simulation) return ["Not simulated yet. Press Simulate to see whether the robot would walk, tip over, slip or lack force.", "plain"];
+  if (!view?.simulation) return ["Not simulated yet. Press Simulate to see whether the robot walks, tips over or slips, and whether its motors are strong enough.", "plain"];
   if (!view.simulation.fresh) return ["The gait has changed, so these figures are out of date. Simulate again.", "caution"];
   if (!simulation) return ["Loading the simulation.", "plain"];
   return view.plan?.source === "draft" ? ["This plan cannot be sent. The simulation shows what would happen on the robot.", "caution"] : null;
@@ -126,9 +127,9 @@ const degrees = (radians) => fixed((radians * 180) / Math.PI);
 function cameOf({ walks, fell, max_tilt: tilt, distance, feet_error: error, ended_early: early }) {
   if (fell) return ["falls", "×", `The robot falls over, with a tilt of ${degrees(tilt)}°`];
   if (early) return ["falls", "×", `The simulation ends early: ${early.replace(/\.$/, "")}`];
-  const figures = `Tilt up to ${degrees(tilt)}°, distance ${mm(distance)} mm, mean foot error ${mm(error)} `
-    + "mm";
-  return walks ? ["walks", "", `The robot walks. ${figures}`] : ["tips", "!", `The robot tips onto a foot that should be in the air. ${figures}`];
+  const figures = `Tilt up to ${degrees(tilt)}°, distance ${mm(distance)} mm, foot error ${mm(error)} mm`;
+  if (walks) return ["walks", "", `The robot walks. ${figures}`];
+  return ["tips", "!", `The robot tips onto a foot that should be in the air. ${figures}`];
 }
 
 function cell(run, number) {

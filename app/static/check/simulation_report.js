@@ -34,7 +34,7 @@ function rows(simulation, goToTime) {
     ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "Angle by which the body turns, in the simulation and in the plan"],
     ["Largest tilt", degrees(report.max_tilt), "°", at(report.max_tilt_time, "largest tilt"), "Angle between the body's axis and the vertical"],
     ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "Smallest distance of the centre of mass from the edge of the area between the feet that carry load. Below 0, only the width of the soles keeps the robot from tipping"],
-    ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest distance by which a motor lags behind the motion that the firmware commands: ${motorText(behind)}`],
+    ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest lag of a motor behind the position that the firmware commands: ${motorText(behind)}`],
     ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Share of the time during which the force of a motor is at its limit: ${motorText(force)}`],
   ];
 }

@@ -31,7 +31,8 @@ export const STRIPS = [
   {
     key: "margin", name: "Stability margin", title: "Margin, mm", unit: "mm", shown: true,
     lack: "No stability margin.",
-    help: "Distance of the centre of mass from the edge of the support polygon, in mm. Below 0, the robot tips",
+    help: "Distance of the centre of mass from the edge of the support polygon, in mm. "
+      + "Below 0, the robot tips",
     of: (plan, options) => (plan.margin ? {
       series: [{ foot: null, motor: null, valueAt: (index) => (plan.margin[index] === null ? null : plan.margin[index] * 1000) }],
       low: 0, high: null, wanted: mmRequested(options?.margin), most: 1,

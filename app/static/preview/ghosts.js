@@ -8,9 +8,9 @@ import { latestOnly } from "../lib/latest_only.js";
 import { simulationOver } from "../state/simulation.js";
 
 const KINDS = {
-  before: { text: "Before the last edit", help: "Shows the gait before the last edit. While you drag, shows the gait before the drag" },
+  before: { text: "Before the last edit", help: "Shows the gait before the last edit or, while you drag, before the drag" },
   saved: { text: "As saved", help: "Shows the gait as you last saved it" },
-  measured: { text: "As measured", shown: true, help: "Shows the robot of the open run. Its pose is computed from the measured strokes and the planned feet on the ground" },
+  measured: { text: "As measured", shown: true, help: "Shows the robot of the open run, computed from the measured strokes and the planned feet on the ground" },
   simulated: { text: "As simulated", shown: true, help: "Shows the simulated robot, which can tilt and slip. Green rings mark feet that carry load. Red lines show where a foot slid" },
 };
 
@@ -21,7 +21,7 @@ function versionOf(kind, state) {
   const { view, live, run } = state;
   if (!view) return { reason: "No gait is selected." };
   if (kind === "simulated") return simulationOver(state) ? { of: `${view.simulation.key} ${view.simulation.made}` } : { reason: "This plan has not been simulated." };
-  if (kind === "measured") return run?.gait === view.id ? { of: run.id } : { reason: "No run of this gait is open. Open one under Runs." };
+  if (kind === "measured") return run?.gait === view.id ? { of: run.id } : { reason: "No run of this gait is open. Open a run of this gait under Runs." };
   if (kind === "saved") return view.edited || live ? { of: "saved" } : { reason: "The gait has not changed since it was saved." };
   if (live) return { of: "present" };
   return view.changed ? { of: "before" } : { reason: "This gait has not been changed yet." };
@@ -55,8 +55,7 @@ export function mountGhosts(store, preview) {
   const choice = recalled("ghosts", Object.fromEntries(Object.entries(KINDS).map(([kind, { shown = false }]) => [kind, shown])));
   const followers = {};
   const menu = checkMenu({
-    id: "ghosts-menu", name: "Ghosts", help: "Shows a second robot: an earlier version, a simulation or a "
-      + "run",
+    id: "ghosts-menu", name: "Ghosts", help: "Shows a second robot: an earlier gait, a simulation or a run",
     entries: Object.entries(KINDS).map(([key, { text, help }]) => ({ key, text, help, checked: choice[key], swatch: true })),
     onChange(kind, checked) {
       choice[kind] = checked;

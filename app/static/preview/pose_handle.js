@@ -94,7 +94,7 @@ function describe({ knob, label }, plan, index, pinned) {
 /** Lays the handle over the scene and keeps it where the camera sees the pose. */
 export function mountPoseHandle(store, edits, playback, preview) {
   const layer = byId("pose");
-  const knob = handle("pose-place", "Pose", "Drag this handle on the floor to move the body in this pose. The pose is then pinned. The arrow keys move the body by 0.5 mm, with Shift by 5 mm");
+  const knob = handle("pose-place", "Pose", "Drag this handle on the floor to move the body in this pose. The pose is then pinned and keeps its place. The arrow keys move the body by 0.5 mm, with Shift by 5 mm");
   knob.setAttribute("aria-valuemin", "-30");
   knob.setAttribute("aria-valuemax", "30");
   const label = h("span", { class: "goal-label" });

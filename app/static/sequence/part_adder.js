@@ -23,7 +23,7 @@ function choice(line, robot) {
  * @returns {HTMLElement}
  */
 export function partAdder(store, edits) {
-  const help = "Choose the gait to add. A sequence adds all of its parts. "
+  const help = "Choose the gait to add. If you add a sequence, all parts of the sequence are added. "
     + "If a gait cannot be added, the list shows the reason.";
   const select = h("select", { "aria-label": "Gait to add", title: help });
   const act = attempt(async () => {

@@ -15,8 +15,8 @@ import { partAdder } from "./part_adder.js";
 import { partRows } from "./sequence_rows.js";
 import { SAMPLE_TIMES, sequenceTrouble } from "./sequence_trouble.js";
 
-const TEACH = "Each part starts with the feet, body and heading at the end of the part before. You check and approve the whole sequence once.";
-const OPTIMISE = "The motions of the parts follow every edit. Optimise parts also improves the footholds of each part, over all its repetitions.";
+const TEACH = "Each part starts where the part before ends, with the same feet, body and heading. You check and approve the whole sequence once.";
+const OPTIMISE = "After every edit, the studio computes the motions of the parts again. Optimise parts also improves the footholds of each part, over all its repetitions.";
 const ALL_EXACT = "There is nothing to optimise. Each part is already optimised, made by hand or recorded.";
 
 function totals() {
@@ -128,7 +128,7 @@ const FIELDS = [
   { label: "Body speed", name: "Body speed between parts", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1,
     help: "Largest speed of the body while the robot changes from one part to the next", ...option("body_speed", 1000) },
   { label: "Clearance", name: "Clearance between parts", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
-    help: "How high each foot rises at least when it steps between two parts", ...option("clearance", 1000) },
+    help: "Each foot rises at least this high when it steps between two parts", ...option("clearance", 1000) },
   { label: "Stability margin", name: "Stability margin between parts", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
     help: "Smallest allowed distance of the centre of pressure from the edge of the support polygon, while feet step between two parts", ...option("margin", 1000) },
   { label: "Phase length", name: "Phase length between parts", unit: "samples", min: 2, max: 50, step: 1, decimals: 0,

@@ -8,7 +8,7 @@ import { MOST_TIMES } from "../document/sequence_edits.js";
 const STATES = {
   live: ["live", "good"], optimised: ["exact", "good"], manual: ["by hand", "good"], recorded: ["recorded", "good"], draft: ["no motion", "bad"],
 };
-const HELP = "Drag the part to move it, or press Alt with Up or Down. Delete takes the part out. "
+const HELP = "Drag the part to move it, or press Alt with Up or Down. Delete removes the part. "
   + "Enter moves the playhead to the start of the part";
 const DEGREES = 180 / Math.PI;
 
@@ -39,7 +39,7 @@ export function partRow(actions) {
   const lead = h("p", { class: "part-lead", role: "gridcell" });
   const [number, text] = [h("span", { class: "part-number" }), h("span", { class: "part-text" })];
   const name = h("div", { class: "part-name", role: "gridcell", tabindex: "-1" }, number, text);
-  const input = h("input", { type: "number", min: 1, max: MOST_TIMES, step: 1, title: `How many times this part runs, 1 to ${MOST_TIMES}` });
+  const input = h("input", { type: "number", min: 1, max: MOST_TIMES, step: 1, title: `How many times the robot performs this part, 1 to ${MOST_TIMES}` });
   const [up, down] = [button("Move up", "up", () => actions.move(-1)), button("Move down", "down", () => actions.move(1))];
   const out = button("Take out", "close", actions.remove);
   const figures = h("span", { class: "number" });
@@ -88,7 +88,8 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   setAllowed(row.up, index === 0 ? "This is the first part." : null, `Move “${title}” up (Alt+Up)`);
   setAllowed(row.down, index === count - 1 ? "This is the last part." : null,
     `Move “${title}” down (Alt+Down)`);
-  setAllowed(row.out, count === 1 ? "A sequence needs at least one part. Delete the sequence instead." : null, `Take “${title}” out (Delete)`);
+  setAllowed(row.out, count === 1 ? "A sequence needs at least one part. "
+    + "Delete the sequence instead." : null, `Take “${title}” out (Delete)`);
   setText(row.figures, planned ? figuresOf(planned) : "");
   const [word, tone] = source === "changed" ? ["source changed", "caution"] : planned ? (STATES[planned.source] ?? [planned.source, "quiet"]) : ["…", "quiet"];
   row.dot.dataset.tone = tone;

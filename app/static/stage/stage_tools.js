@@ -60,7 +60,7 @@ const ENTRIES = [
   },
 ];
 
-const NO_PRESSURE = "The centre of pressure is known only for optimised and live plans. Its computation needs the accelerations of the motion.";
+const NO_PRESSURE = "The centre of pressure is known only for optimised and live plans. The computation of this point needs the accelerations of the motion.";
 
 /** Fetches the reach of the drawn plan while its layer is on. */
 function followReach(store, preview, isOn) {

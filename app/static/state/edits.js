@@ -18,8 +18,8 @@ const STAYS = [422, CONFLICT, 503, 507];
 const MOST_TRIES = 8;
 const NO_ANSWER = 0;
 const RETRY_MS = 1000;
-const NOT_ANSWERING = "The studio does not answer. Your edits stay on this page. "
-  + "They are sent as soon as the studio answers.";
+const NOT_ANSWERING = "The studio does not answer. "
+  + "Your edits stay on this page and are sent when the studio answers.";
 
 /** Sets cells of the timeline; locked cells keep their value. `cells` are [foot, sample], 0-based. */
 export function paintCells(document, cells, swing) {

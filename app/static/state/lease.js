@@ -54,7 +54,7 @@ function takeOverQuestion(store) {
     element,
     open({ currentTarget }) {
       const { robot } = store.state;
-      const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run continues, and you can pause it." : "";
+      const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run continues, and you can pause the run." : "";
       setText(sentence, `If you take control, ${robot.lease.name} can no longer move the robot.${run} Look at the robot before you take control.`);
       opener = currentTarget;
       element.hidden = false;

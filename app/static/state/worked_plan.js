@@ -8,7 +8,7 @@ import { hasNoMotion, ownPlan, shownDocument, shownPlan } from "./store.js";
 
 /** What is said of each grey: on the stage, in a plot, and of a value under the pointer. */
 export const GREY = {
-  worked: { stage: "Grey: the last plan that worked.", plot: "grey: last plan that worked", value: "last plan that worked" },
+  worked: { stage: "Grey: the last valid plan.", plot: "grey: last valid plan", value: "last valid plan" },
   nearest: { stage: "Grey: the nearest motion, which breaks a limit.", plot: "grey: nearest motion, which breaks a limit", value: "nearest motion" },
 };
 

@@ -28,9 +28,10 @@ function withSwing(document, foot, from, to) {
 
 export const isLocked = ({ timeline }, [foot, sample]) => timeline.locked?.[foot]?.[sample] === "1";
 
+const UNLOCK = "To unlock cells, press K, or drag with Shift from a locked cell.";
+
 export function reportLocked([foot, sample]) {
-  toast(`Foot ${foot + 1}, sample ${sample + 1} is locked. To unlock cells, press K, or drag with Shift `
-    + "from a locked cell.");
+  toast(`Foot ${foot + 1}, sample ${sample + 1} is locked. ${UNLOCK}`);
 }
 
 /** Paints the value that the first cell gets; locked cells keep theirs. */

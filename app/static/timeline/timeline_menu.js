@@ -9,7 +9,7 @@ const COLUMNS = [
   [["Shape", ["mirror", "reverse", "shift", "stretch", "rotate", "repeat"]], ["Samples", ["insert", "remove"]]],
 ];
 const HELP = "Opens the commands for the selected cells: copy, reverse, shift, insert and others. "
-  + "Without a selection, they change the whole timeline";
+  + "Without a selection, the commands change the whole timeline";
 const KEYS = { copy: "Ctrl+C", cut: "Ctrl+X", paste: "Ctrl+V", duplicate: "Ctrl+D", stance: "Delete", lock: "K", all: "Ctrl+A", loop: "L" };
 
 /** Further entries of the menu. */

@@ -49,7 +49,7 @@ export function mountViews(store) {
   openView(current);
   store.watch((state) => [shownDocument(state)?.sequence], (state) => {
     const isSequence = Boolean(shownDocument(state)?.sequence);
-    setAllowed(byId("view-segments"), isSequence ? NO_TABLE : null, "The segment table of a gait made by hand, as a spreadsheet");
+    setAllowed(byId("view-segments"), isSequence ? NO_TABLE : null, "Opens the segment table, a spreadsheet for gaits made by hand");
     if (isSequence && current === "segments") openView("cells");
   });
 }

@@ -57,7 +57,7 @@ function bandOverIterations({ feet, iterations, ...band }) {
 const HELP = "Mean: distance of the foot, averaged over the trials. Spread: distance of the end points from their mean "
   + "(root mean square). Planned: distance of the foot in the plan";
 
-const spreadTable = ({ feet }) => figureTable("Ends of the trials, cm", HELP, ["", "mean", "spread", "planned"],
+const spreadTable = ({ feet }) => figureTable("Final distance of each foot, cm", HELP, ["", "mean", "spread", "planned"],
   feet.map(({ way, end_spread_cm: spread }, foot) => [footName(foot), ...[way.mean.at(-1), spread, way.plan?.at(-1) ?? null].map((value) => fixed(value, 2))]));
 
 /** A check box a trial, which includes it, and a button that opens the trial. */
@@ -67,7 +67,7 @@ function choice(trials, open, changed) {
     box.checked = index < MOST_TOGETHER;
     return { box, row: h("li", {}, h("label", {}, box), h("button", { class: "link", text: name, title: "Opens this trial and compares it with its plan", on: { click: () => open(id) } })) };
   });
-  const element = h("ul", { class: "band-trials", role: "list", "aria-label": "Trials of the band" }, ...boxes.map(({ row }) => row));
+  const element = h("ul", { class: "band-trials", role: "list", "aria-label": "Trials in this plot" }, ...boxes.map(({ row }) => row));
   return { element, chosen: () => boxes.filter(({ box }) => box.checked).map(({ box }) => box.value) };
 }
 

@@ -18,9 +18,9 @@ export const comparisonApi = {
   band: (ids) => request("GET", `/api/trials/band?${new URLSearchParams(ids.map((id) => ["trial", id]))}`),
 };
 
-const HELP = "Time, and mean movement of the feet, from the first to the last frame. The angle is the direction on the "
-  + "platform. Last column: mean distance of the feet from the tracked feet, at the same phase of each "
-  + "iteration";
+const HELP = "Time, and mean movement of the feet, from the first to the last frame. "
+  + "The angle is the direction of the movement on the platform. "
+  + "The last column is the mean distance of the feet from the tracked feet, at the same phase of each iteration";
 
 function figures({ rows }) {
   const cells = (row) => [fixed(row.seconds, 1), fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];

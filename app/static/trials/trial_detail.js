@@ -23,7 +23,7 @@ function movementTable(caption, help, figures, plan, columns) {
 }
 
 function iterationTable({ parts }) {
-  return figureTable("Iterations, first to last", "Mean movement of the feet from the first to the last frame of each iteration, with time and speed", ["", "cm", "s", "mm/s"],
+  return figureTable("Movement in each iteration", "Mean movement of the feet from the first to the last frame of each iteration, with time and speed", ["", "cm", "s", "mm/s"],
     parts.map((part, index) => [{ text: `iteration ${index + 1}` }, fixed(part.net_distance, 2), fixed(part.seconds, 1), fixed(part.speed_mm_s, 2)]));
 }
 
@@ -54,7 +54,7 @@ function endsLine(trial, change) {
 
 /** That no robot did it, where it is an example. */
 const exampleLine = ({ is_example: isExample }) => isExample
-  && h("p", { class: "why" }, exampleMark(), " This trial was simulated. The studio does not use it to compare gaits or to learn from trials.");
+  && h("p", { class: "why" }, exampleMark(), " This trial was simulated. The studio does not use simulated trials to compare gaits or to learn.");
 
 /** That a trial is deleted, with a way back; nothing else can be done to it. */
 function deletedLine({ id, deleted }) {
@@ -66,9 +66,9 @@ function deletedLine({ id, deleted }) {
 
 function filesLine(trial, remove) {
   const at = `/api/trials/${encodeURIComponent(trial.id)}`;
-  const erase = h("button", { class: "link", text: "Delete", title: "Removes this trial from the list. You can undo this", on: { click: () => remove(trial) } });
+  const erase = h("button", { class: "link", text: "Delete", title: "Removes this trial from the list. Undo brings the trial back", on: { click: () => remove(trial) } });
   return h("div", { class: "run-files" }, h("a", { href: `${at}/track.csv`, download: "", text: "Track as CSV", title: "Places of the feet in cm. Where a foot was not seen, the cell is empty" }),
-    h("a", { href: `${at}/report`, download: "", text: "Report", title: "One HTML file with the figures, plots, note, photos and origin of this trial. You can open it offline and print it" }), !trial.deleted && erase);
+    h("a", { href: `${at}/report`, download: "", text: "Report", title: "One HTML file with the figures, plots, note, photos and origin of this trial. You can open the file offline and print it" }), !trial.deleted && erase);
 }
 
 /** Redraws the plots; the mark that had the focus has it again. */
@@ -112,8 +112,8 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })), exampleLine(now), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
     tail.replaceChildren(...[endsLine(now, (changes) => sync.change(changes)), comparison.element, iterationTable(now),
-      movementTable("Movement as published", "Distance as the publication defines it, from the largest displacements along x and y. It is never negative. The angle is the direction on the platform", now.figures, now.plan, published),
-      movementTable("Movement, first to last", "Movement of each foot from the first to the last frame. The angle is the direction of this movement on the platform", now.figures, now.plan, net),
+      movementTable("Movement as published", "Distance as the publication defines it, from the largest displacements along x and y. This distance is never negative. The angle is the direction of the movement on the platform", now.figures, now.plan, published),
+      movementTable("Movement from first to last frame", "Movement of each foot from the first to the last frame. The angle is the direction of this movement on the platform", now.figures, now.plan, net),
       slipTable(now), filesLine(now, remove)].filter(Boolean));
     drawPlots();
     attempt(comparison.refresh)();
@@ -132,7 +132,7 @@ const stretches = (count, what) => (count ? `${what}${count === 1 ? "" : `, ${co
 /** How often a foot was out of sight, and how often something else was taken for it. */
 function sights({ unseen, false: wrong }) {
   const words = [stretches(unseen.length, "The camera did not see a foot"), stretches(wrong.length, "The studio mistook something else for a foot")].filter(Boolean);
-  return words.length ? `${words.join(" ")} These gaps are marked and filled with straight lines.` : null;
+  return words.length ? `${words.join(" ")} The gaps are marked and filled with straight lines.` : null;
 }
 
 /**

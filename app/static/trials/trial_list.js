@@ -80,7 +80,7 @@ function emptyPart(open) {
   const allow = (busy) => {
     setAllowed(button, busy, "Simulates a walk of the library and saves the result as a trial. "
       + "The trial is marked as an example");
-    setText(words, busy ?? "This takes a few seconds. You can delete the example like any trial. "
+    setText(words, busy ?? "The simulation takes a few seconds. You can delete the example like any trial. "
       + "The example is not used to compare gaits.");
   };
   const make = attempt(async () => {

@@ -38,7 +38,7 @@ function photoItem(trial, { id, caption, name, width, height }, number, refresh)
     picture.alt = field.value.trim() || name;
     announce("Caption kept.");
   }));
-  const erase = h("button", { class: "plain icon-only", "aria-label": `Delete photo ${number}`, title: "Deletes this photo. You can undo this" }, icon("close"));
+  const erase = h("button", { class: "plain icon-only", "aria-label": `Delete photo ${number}`, title: "Deletes this photo. Undo brings the photo back" }, icon("close"));
   erase.addEventListener("click", attempt(async () => {
     await photoApi.remove(trial, id);
     await refresh();

@@ -12,7 +12,7 @@ function words(tracks) {
   const [{ turn_deg: turn, gaps_mm: gaps }] = tracks;
   const stood = tracks.length > 1 ? `The ${tracks.length} tracks are rotated, so that all of them have the same heading in the first frame.`
     : `The track is rotated back by ${fixed(turn, 1)}°, the heading of the robot in the first frame. `
-      + `The feet of this frame then fit within ${fixed(Math.max(...gaps), 1)} mm.`;
+      + `The feet of the first frame fit within ${fixed(Math.max(...gaps), 1)} mm.`;
   return `${stood} Rings show the feet at the playhead. Where a line is grey, the foot was not seen.`;
 }
 

@@ -214,7 +214,7 @@ def test_edits_wait_while_the_studio_does_not_answer_and_undo_takes_back_the_las
     to_studio = re.compile(f"/api/gaits/{gait}")
     page.route(to_studio, lambda route: route.abort())
     fill(page, "Stability margin", "1")
-    expect(page.get_by_text("Your edits stay on this page.")).to_be_visible()
+    expect(page.get_by_text("Your edits stay on this page and are sent when the studio answers.")).to_be_visible()
     fill(page, "Clearance", "4")
     fill(page, "Clearance", "5")
     page.get_by_role("button", name="Undo", exact=True).first.click()

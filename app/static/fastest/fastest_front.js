@@ -7,6 +7,8 @@ import { choiceText, priceOf, speedText } from "./fastest_words.js";
 const FRAME = { width: 620, height: 210, left: 44, right: 12, top: 12, bottom: 34 };
 const SIZE = 5;
 const DEGREES = 180 / Math.PI;
+const CAPTION = "Large marks are the best gaits: each faster gait has a smaller stability margin or a longer stop bound. "
+  + "Small dots are the other tried gaits. Choose a large mark to use its values.";
 
 /** Outlines of the marks, by the place of their stop bound. */
 const OUTLINES = [
@@ -21,7 +23,7 @@ const inUnits = ({ pace, on_the_spot: onTheSpot }) => (onTheSpot ? pace * DEGREE
 /** What a mark stands for. */
 export function pointText(one, nameOf) {
   const { order, margin, stop_bound: bound, on_the_spot: onTheSpot } = one;
-  const limits = `margin ${mm(margin, 0)} mm, stop bound ${fixed(bound, 1)} s`;
+  const limits = `stability margin ${mm(margin, 0)} mm, stop bound ${fixed(bound, 1)} s`;
   return `${speedText(priceOf(one))}, ${limits}: ${choiceText(one, nameOf(order), onTheSpot)}`;
 }
 
@@ -36,7 +38,7 @@ function axes(toX, toY, [mostX, mostY], unit) {
     parts.push(svg("line", { class: "grid", x1: FRAME.left, x2: FRAME.width - FRAME.right, y1: toY(y), y2: toY(y) }), text(FRAME.left - 6, toY(y) + 4, fixed(y, stepOf(mostY) < 1 ? 1 : 0), "end"));
   }
   for (let x = 0; x <= mostX + 1e-9; x += 2) parts.push(text(toX(x), bottom + 14, fixed(x, 0), "middle"));
-  parts.push(text(FRAME.width - FRAME.right, FRAME.height - 4, "stability margin, mm", "end"), text(FRAME.left, FRAME.height - 4, `speed, ${unit}, over`, "start"));
+  parts.push(text(FRAME.width - FRAME.right, FRAME.height - 4, "horizontal: stability margin, mm", "end"), text(FRAME.left, FRAME.height - 4, `vertical: speed, ${unit}`, "start"));
   return parts;
 }
 
@@ -86,7 +88,7 @@ export function frontPlot(front, tried, nameOf, choose) {
     });
   });
   const unit = front.some((one) => priceOf(one).on_the_spot) ? "°/s" : "mm/s";
-  const drawing = svg("svg", { viewBox: `0 0 ${FRAME.width} ${FRAME.height}`, role: "listbox", "aria-label": "Front of speed, margin and stop bound" }, ...axes(toX, toY, most, unit), ...dots, ...marks);
+  const drawing = svg("svg", { viewBox: `0 0 ${FRAME.width} ${FRAME.height}`, role: "listbox", "aria-label": "Best gaits by speed, stability margin and stop bound" }, ...axes(toX, toY, most, unit), ...dots, ...marks);
   return h("figure", { class: "fast-front" }, drawing, legend(bounds),
-    h("figcaption", { class: "quiet", text: "Marks: no gait that was tried is faster with as much margin and as early a stop. Dots: the others. Choose a mark to take its values." }));
+    h("figcaption", { class: "quiet", text: CAPTION }));
 }

@@ -13,11 +13,12 @@ const FIRST = {
 
 /** What the chosen gait would be, in a sentence. */
 function outcomeText(option, title, isLooking) {
-  if (!option?.price) return `${title}: ${option?.sentence || (isLooking ? "looking for its speed." : "its speed is not known.")}`;
+  if (!option?.price) return `${title}: ${option?.sentence || (isLooking ? "the speed is being computed." : "the speed is not known.")}`;
   const { price } = option;
-  if (price.pace === null) return `${title}: no gait keeps every limit with these values.`;
-  const cycle = price.on_the_spot ? `${degrees(Math.abs(price.turn), 1)}°` : `${mm(price.step)} mm`;
-  return `${title}: ${speedText(price)} in mid-walk, ${cycle} in ${price.moves} moves and ${fixed(price.seconds, 1)} s a cycle. From rest to rest it is slower: its first and last steps are shorter.`;
+  if (price.pace === null) return `${title}: no gait with these values keeps all limits.`;
+  const cycle = price.on_the_spot ? `turns ${degrees(Math.abs(price.turn), 1)}°` : `goes ${mm(price.step)} mm`;
+  return `${title}: ${speedText(price)} in mid-walk. One cycle ${cycle} in ${price.moves} moves and `
+    + `${fixed(price.seconds, 1)} s. The whole gait is slower, because its first and last steps are shorter.`;
 }
 
 /**
@@ -37,7 +38,7 @@ export function fastestRequest(changed) {
   function showOutcome() {
     const [known, count] = rows.counts();
     setText(outcome, outcomeText(rows.chosen(request), title(), Boolean(looking)));
-    setText(state, looking && known < count ? `${known} of ${count} speeds are known; the others are being looked for.` : "");
+    setText(state, looking && known < count ? `The studio is computing the speeds: ${known} of ${count} are ready.` : "");
   }
 
   function refuse(sentence) {

@@ -9,7 +9,7 @@ import { jobIsOn } from "../shell/job_list.js";
 import { frontPlot, pointText } from "./fastest_front.js";
 import { choiceText, degrees, priceOf, searchedText, speedText } from "./fastest_words.js";
 
-const WITH_FRONT = "Also try other margins and stop bounds (some minutes)";
+const WITH_FRONT = "Also try other stability margins and stop bounds (takes some minutes)";
 const HEADS = ["Foot order", "Margin", "Stop bound", "In mid-walk", "A cycle", "Moves", ""];
 const SAME = 1e-9;
 
@@ -71,11 +71,11 @@ function listed({ tried = [], request, front, state }) {
 function sentenceOf(job) {
   const { state, sentence, tried = [], result } = job;
   const best = tried.reduce((fastest, one) => (paceOf(one) > paceOf(fastest) ? one : fastest), { speed: null });
-  const fastest = best.speed === null ? "" : ` The fastest${jobIsOn(job) ? " yet" : ""}: ${speedText(priceOf(best))}.`;
+  const fastest = best.speed === null ? "" : ` Fastest gait${jobIsOn(job) ? " so far" : ""}: ${speedText(priceOf(best))}.`;
   if (state === "cancelling") return sentence;
   if (jobIsOn(job)) return `${sentence}${fastest}`;
   if (state !== "done") return `The last search: ${sentence}${fastest}`;
-  const scope = result.complete ? "every foot order" : `some of ${result.orders} foot orders`;
+  const scope = result.complete ? "every foot order" : `only some of the ${result.orders} foot orders`;
   return `Tried ${scope}: ${sentence}${fastest}`;
 }
 
@@ -123,7 +123,7 @@ export function searchPart(store, { request, nameOf, use }) {
     const before = job?.id;
     job = shownJob(state, request().robot, picked);
     const isOn = Boolean(job) && jobIsOn(job);
-    setAllowed(start, isOn ? "A search is running. Wait for it, or cancel it." : null, "Tries every foot order and direction with the values above");
+    setAllowed(start, isOn ? "A search is running. Wait until the search ends, or cancel the search." : null, "Tries every foot order and direction, with the other values as chosen above");
     // What has the focus is not taken away with it.
     if (!isOn && document.activeElement === cancel) start.focus();
     progress.hidden = !isOn;

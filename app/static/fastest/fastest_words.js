@@ -36,19 +36,19 @@ export function courseText({ course, turn }) {
 }
 
 const millimetres = (value) => `${mm(value, 0)} mm`;
-const STOP = "Within this time the robot hears a stop, whenever it comes";
-const MARGIN = "Least distance of the centre of mass from the edge of the support polygon, at every place of every move";
-const SWAY = "How far the heading may differ from an even turn. Soles then pivot on the ground, which is not tested with "
-  + "flat shoes yet";
+const STOP = "Longest time until the robot hears Stop. The robot hears Stop only between moves";
+const MARGIN = "Least distance between the centre of mass and the edge of the support polygon, during every move";
+const SWAY = "How far the body may turn to the left and right of its course. The soles of the feet then turn on the "
+  + "ground. Gaits with sway were not tested with flat shoes yet";
 
 /** The options: what each is called, what it means, and its values in words. */
 export const GROUPS = [
-  { group: "course", label: "Course", help: "Where the gait goes; degrees are the turn a cycle", text: courseText },
-  { group: "order", label: "Foot order", help: "Which foot steps when, and in which direction the robot walks" },
+  { group: "course", label: "Course", help: "Straight, a curve, or a turn on the spot. The angle of a curve is the turn in one cycle", text: courseText },
+  { group: "order", label: "Foot order", help: "The order in which the feet step, and the direction in which the robot walks" },
   { group: "stop_bound", label: "Stop bound", help: STOP, text: (value) => `${fixed(value, 1)} s` },
   { group: "margin", label: "Stability margin", help: MARGIN, text: millimetres },
-  { group: "step", label: "Step", help: "Travel a cycle", text: (value) => (value === null ? "fastest" : millimetres(value)) },
-  { group: "clearance", label: "Clearance", help: "Height of a swinging foot above the standing ones", text: millimetres },
+  { group: "step", label: "Step", help: "How far the robot walks in one cycle", text: (value) => (value === null ? "fastest" : millimetres(value)) },
+  { group: "clearance", label: "Clearance", help: "Each foot rises at least this high in its swing", text: millimetres },
   { group: "sway", label: "Sway", help: SWAY, text: (value) => `${degrees(value)}°` },
 ];
 

@@ -11,7 +11,12 @@ import { learnedResult } from "./learning_result.js";
 const POLL_MS = 1000;
 /** Longest wait between two polls of a studio that does not answer. */
 const MOST_POLL_MS = 30000;
-const PURPOSE = "Fits what no data sheet gives (soft links, friction, cable, backlash, centre of mass) to how far and which way the robot really went. Nothing changes until you choose the result in Simulate.";
+const PURPOSE = "Learning finds physics parameters that no data sheet gives, such as friction, backlash and centre of mass. "
+  + "It compares simulated walks with the walks of the real robot. "
+  + "Simulations use the result only after you keep it as a set and choose the set in Simulate.";
+const TABLE_HELP = "The table has one row for each trial, like trajectory_averages.csv (rows TrajAa, TrajAb, …). "
+  + "The trajectories are the motions that the robot walked in these trials, "
+  + "such as walk_a.csv, ambl_b.csv, mtri_c.csv and adjs_d.csv.";
 const OPEN = new Set(["running", "cancelling"]);
 
 function addStyles() {
@@ -52,7 +57,7 @@ function jobRow(job, open) {
 
 function setRow(set, remove) {
   return h("li", { class: "learned-set" }, h("span", { title: set.title }, h("b", { text: set.key }), h("span", { class: "quiet", text: ` ${[set.note, set.by, clockTime(set.made)].filter(Boolean).join(" · ")}` })),
-    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`, title: "The set can be brought back. Until then simulations with this set count as out of date", on: { click: () => remove(set) } }));
+    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`, title: "Deletes the set. Undo restores the set. While the set is deleted, simulations that used it count as out of date", on: { click: () => remove(set) } }));
 }
 
 /**
@@ -133,7 +138,7 @@ export async function openLearning(page) {
   const keep = attempt(async ({ id }, name) => {
     const { key } = await changed(() => learningApi.keep(id, name));
     setsChanged();
-    toast(`“${key}” is kept. Choose it in Simulate under Physics.`);
+    toast(`The set “${key}” is kept. To use the set, choose it in Simulate under Physics.`);
   });
 
   const remove = attempt(async (set) => {
@@ -152,16 +157,16 @@ export async function openLearning(page) {
 /** Files of the published trials. */
 function tableChoice(start) {
   const file = (name, multiple) => h("input", { type: "file", accept: ".csv,text/csv", "aria-label": name, multiple, required: true });
-  const [table, trajectories] = [file("Table of trials", false), file("Trajectories that were walked", true)];
-  const iterations = h("input", { type: "number", "aria-label": "Iterations of each trial", min: "1", max: "50", step: "1", value: "3", required: true });
+  const [table, trajectories] = [file("Table of trials", false), file("Trajectories that the robot walked", true)];
+  const iterations = h("input", { type: "number", "aria-label": "Iterations of the gait in each trial", min: "1", max: "50", step: "1", value: "3", required: true });
   const submit = attempt(async (event) => {
     event.preventDefault();
     const texts = await Promise.all([...trajectories.files].map(async (one) => [one.name, await one.text()]));
     start({ table: { csv: await table.files[0].text(), trajectories: Object.fromEntries(texts), iterations: iterations.valueAsNumber } });
   });
-  return h("details", { class: "run-states" }, h("summary", { text: "From a published table" }),
+  return h("details", { class: "run-states" }, h("summary", { text: "Learn from a published table of trials" }),
     h("form", { class: "trial-form", on: { submit } },
-      h("p", { class: "quiet", text: "A table like trajectory_averages.csv (TrajAa, TrajAb, …) and the trajectories walk_a.csv, ambl_b.csv, mtri_c.csv, adjs_d.csv, … that its rows walked." }),
+      h("p", { class: "quiet", text: TABLE_HELP }),
       h("label", {}, h("span", { text: "Table" }), table), h("label", {}, h("span", { text: "Trajectories" }), trajectories),
       h("label", {}, h("span", { text: "Iterations" }), iterations), h("button", { class: "primary", text: "Learn from the table" })));
 }

@@ -5,14 +5,15 @@ import { counted, fixed } from "../lib/format.js";
 import { toast } from "../lib/toasts.js";
 
 const LEAST_GAITS = 3;
+const TEST = "As a test, learning predicts each gait from the other gaits.";
 const WHERE = "Each trial needs its run or gait for comparison. Choose the run or gait when you add the trial.";
 
 const gaitOf = ({ gait_name: gait, name, expected_cm: wanted, iterations }) => `${gait || name}, ${fixed(wanted / iterations)} cm × ${iterations}`;
 
 /** Why nothing can be learned from a trial; null where it can. */
 function whyNot({ is_example: isExample, gait, run }) {
-  if (isExample) return "Made by simulation: no robot did this, so nothing is learned from it.";
-  return gait || run ? null : "The waypoints that the robot was sent are not known. Add the trial again, with its run or gait.";
+  if (isExample) return "This example was made by simulation. Learning uses only trials of a real robot.";
+  return gait || run ? null : "The studio does not know which waypoints were sent to the robot. Add the trial again and choose its run or gait.";
 }
 
 function trialLine(trial, changed) {
@@ -25,8 +26,9 @@ function trialLine(trial, changed) {
 /** What is missing, from the trials that there are and the gaits of those that are ticked; null where nothing is. */
 function missingText(trials, gaits) {
   if (gaits >= LEAST_GAITS) return null;
-  const have = trials.some((trial) => !whyNot(trial)) ? `The ticked trials are of ${counted(gaits, "gait")}` : "There is no trial to learn from yet";
-  return `${have}; ${LEAST_GAITS} different gaits or steps are needed, so that one can be left out as a test. ${WHERE}`;
+  const ticked = gaits ? `The ticked trials show ${counted(gaits, "gait")}` : "No trial is ticked";
+  const have = trials.some((trial) => !whyNot(trial)) ? ticked : "There is no trial to learn from yet";
+  return `${have}. Learning needs at least ${LEAST_GAITS} gaits that differ in name or step length. ${TEST} ${WHERE}`;
 }
 
 /**
@@ -44,7 +46,7 @@ export function trialChoice(trials, start) {
   function refresh() {
     const gaits = new Set(chosen().map(gaitOf)).size;
     const missing = missingText(trials, gaits);
-    setAllowed(press, missing, "Simulates every gait some forty times, in the background");
+    setAllowed(press, missing, "Simulates every gait about forty times. You can continue to work meanwhile");
     setText(needs, missing ?? "");
     needs.hidden = !missing;
   }

@@ -6,27 +6,32 @@ import { captionedTable } from "../lib/tables.js";
 import { gridPlaces, gridStep } from "../trials/trial_plot.js";
 
 const UNKNOWN = "not identifiable";
+const FITTED = "Fitted values, with one standard deviation below and above. "
+  + "A parameter that the trials cannot determine keeps its usual value";
+const ERRORS = "Mean absolute error over all gaits. “Left out” means that the predicted gait was not used for learning";
 const figure = (value) => (value === 0 ? "0" : compact(value));
 const withUnit = (value, unit) => `${figure(value)} ${unit}`.trim();
 
 const table = (caption, title, head, rows) => captionedTable({ class: "run-table learned-table", title }, caption, head, rows);
 
 function parameterRow({ title, unit, default: usual, fitted, low, high, is_identifiable: isIdentifiable, effect, left }) {
-  const help = `Over its range this parameter changes a gait by up to ${fixed(effect)} standard deviations of a trial; ${fixed(left * 100, 0)} % of its uncertainty is left`;
+  const help = "Between its lowest and its highest value, this parameter changes the distance or angle of a gait by up to "
+    + `${fixed(effect)} standard deviations of one trial. `
+    + `After learning, ${fixed(left * 100, 0)} % of the parameter's uncertainty is left`;
   return h("tr", { title: help }, h("th", { scope: "row", text: title }), h("td", { text: withUnit(usual, unit) }),
     isIdentifiable ? h("td", {}, h("b", { text: figure(fitted) }), h("span", { class: "quiet range", text: `${figure(low)} to ${figure(high)}` })) : h("td", { class: "quiet", text: UNKNOWN }));
 }
 
-const parameterTable = ({ parameters }) => table("Parameters", "Fitted values with one standard deviation below and above; parameters that the trials do not identify keep their usual value", ["", "usual", "fitted"], parameters.map(parameterRow));
+const parameterTable = ({ parameters }) => table("Parameters", FITTED, ["", "usual", "fitted"], parameters.map(parameterRow));
 
-const predictionTable = ({ foretold: predicted }) => table("Error of the predicted travel", "Mean over gaits, without sign. A gait that is left out is predicted by the fit to the others", ["", "cm", "°"],
-  predicted.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `If a gait falls, its whole distance counts as the error and its angle does not: the angle is a mean of ${angles}` } : {},
-    h("th", { scope: "row", text: falls ? `${title} (${falls} fall, angle of ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
+const predictionTable = ({ foretold: predicted }) => table("Error of the predicted distance and angle", ERRORS, ["", "cm", "°"],
+  predicted.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `If the robot falls in a simulation, the whole distance of this gait counts as error. The mean angle is over the other gaits (${angles})` } : {},
+    h("th", { scope: "row", text: falls ? `${title} (falls: ${falls}, angles: ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
 
 function gaitTable({ gaits, foretold: predicted }) {
   const distances = (name) => predicted.find((one) => one.name === name).distances_cm;
   const columns = [gaits.map((gait) => gait.distance_cm), distances("as planned"), distances("default"), distances("left out")];
-  return table("Gaits, cm", "Distance by the published definition", ["", "real", "plan", "usual", "left out"],
+  return table("Gaits, cm", "Distance as in the published tables, from the largest excursions of the feet", ["", "real", "plan", "usual", "left out"],
     gaits.map(({ name }, place) => h("tr", {}, h("th", { scope: "row", text: name }), ...columns.map((values) => h("td", { text: fixed(values[place]) })))));
 }
 
@@ -34,14 +39,14 @@ function gaitTable({ gaits, foretold: predicted }) {
 function cutNote({ gaits }) {
   const cut = gaits.filter((gait) => gait.cut_mm > 0).sort((a, b) => b.cut_mm - a.cut_mm);
   if (!cut.length) return null;
-  return h("p", { class: "quiet learned-cut", title: cut.map(({ name, cut_mm: most }) => `${name}: ${fixed(most)} mm`).join("\n"), text: `The strokes of ${cut.length} of ${gaits.length} gaits were cut to the motors’ range, at most by ${fixed(cut[0].cut_mm)} mm (${cut[0].name}).` });
+  return h("p", { class: "quiet learned-cut", title: cut.map(({ name, cut_mm: most }) => `${name}: ${fixed(most)} mm`).join("\n"), text: `${cut.length} of ${gaits.length} gaits had strokes outside the motors’ range. The strokes were changed to fit, by at most ${fixed(cut[0].cut_mm)} mm (${cut[0].name}).` });
 }
 
 function keeping(job, keep) {
-  if (!job.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials do not identify any parameter, so there is nothing to keep. Add gaits, or more trials of each." });
-  const name = h("input", { "aria-label": "Name of the set", placeholder: "Name, such as the floor", maxlength: "80", required: true });
+  if (!job.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials cannot determine any parameter, so there is no set to keep. Add trials of other gaits, or more trials of each gait." });
+  const name = h("input", { "aria-label": "Name of the set", placeholder: "Name, for example “lab floor”", maxlength: "80", required: true });
   return h("form", { class: "learned-keep", on: { submit: (event) => { event.preventDefault(); keep(job, name.value); } } }, name,
-    h("button", { class: "primary", text: "Keep as a set", title: "Offered in Simulate under Physics, by name and version; nothing uses it before it is chosen there" }));
+    h("button", { class: "primary", text: "Keep as a set", title: "Keeps the fitted values under this name. Simulations use the values after you choose the set in Simulate under Physics" }));
 }
 
 /**
@@ -100,5 +105,5 @@ function predictionPlot({ gaits, foretold: predicted }) {
       svg("line", { class: "right-line", x1: toX(low), y1: toY(low), x2: toX(high), y2: toY(high) }),
       label((SIZE.left + SIZE.width) / 2, SIZE.height - 4, "measured, cm"),
       ...drawn.flatMap(({ prediction, mark }) => measured.map((value, place) => mark(toX(value), toY(prediction.distances_cm[place]))))),
-    h("figcaption", { class: "quiet" }, h("span", { text: "Predicted over measured distance, cm; exact on the line" }), legend(predicted)));
+    h("figcaption", { class: "quiet" }, h("span", { text: "Horizontal: measured distance, cm. Vertical: predicted distance, cm. On the line, both distances are equal." }), legend(predicted)));
 }

@@ -8,18 +8,19 @@ import { isOnTheSpot, stepTurn } from "../document/step.js";
 import { freeName } from "../document/gait_names.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
-import { capital, counted, fixed, mm } from "../lib/format.js";
+import { counted, fixed, mm } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const HELP = "The same foot order and step, made for the robot's clock; shows both side by side first";
-const FREELY = "Makes a drawn gait with this foot order and step, whose timeline can be painted";
-const BROKEN_OFF = "The search broke off. Try again once the studio answers.";
-const MORE = "More iterations, a longer step or a later stop bound make it gain more.";
-const FEW = "This gait has fewer than three iterations, so its figures in mid-walk (column “Now”) are the mean over all of them.";
-const USE = "Makes this gait one for the robot's clock; one Undo brings the drawn one back";
-const NEW = "Keeps this gait as it is, and makes another one";
-const ABOUT = "with the same foot order and step, made for the robot's clock: few poses, and every motor "
-  + "goes straight from one to the next.";
+const HELP = "Makes a gait with the same foot order and step, timed for the robot's firmware. Compares both gaits first";
+const FREELY = "Changes this gait into a drawn gait with the same foot order and step. You can then paint its timeline";
+const BROKEN_OFF = "The search stopped early. Try again when the studio answers.";
+const MORE = "The gain is larger with more iterations, a longer step or a longer stop bound.";
+const FEW = "This gait has fewer than three iterations. Its values in mid-walk (column “Now”) are the mean over all iterations.";
+const USE = "Replaces the drawn gait with the gait for the robot's clock. Undo restores the drawn gait";
+const NEW = "Keeps the drawn gait, and saves the gait for the robot's clock as a new gait";
+const ABOUT = "is compared with a gait for the robot's clock, which is timed for the robot's firmware. "
+  + "Both gaits have the same foot order and step. "
+  + "The gait for the robot's clock has few poses, and the motors move directly from pose to pose.";
 const DEGREES = 180 / Math.PI;
 /** Iterations from which a walk has some that are neither the first nor the last. */
 const MIDDLE = 3;
@@ -32,7 +33,7 @@ const NOTHING = { now: null, faster: null, document: null, notice: null };
 /** Why the shown gait cannot be converted; the server's own sentence, but for what the page alone knows. */
 function whyNot({ view, pending }) {
   if (!view) return "No gait is selected.";
-  return pending.length ? "The last edit is not accepted yet." : view.conversion_refusal;
+  return pending.length ? "The studio is still saving your last edit." : view.conversion_refusal;
 }
 
 function conversionButton(store, { text, help, isOf, act }) {
@@ -82,7 +83,7 @@ function groupsOf(document) {
   const turns = Math.abs(stepTurn(document)) > 0;
   const degrees = (rate) => fixed(Math.abs(rate) * DEGREES, 2);
   const pace = onTheSpot ? ["°/s", degrees] : ["mm/s", (speed) => mm(speed, 2)];
-  const whole = `From rest to rest, ${counted(document.iterations, "iteration")}`;
+  const whole = `Whole gait from rest to rest, ${counted(document.iterations, "iteration")}`;
   const of = (name, unit, read, text) => ({ name, unit, read, text });
   const middle = [
     of("Speed", pace[0], (side) => side[`cycle_${rate}`], pace[1]),
@@ -131,12 +132,12 @@ function table(document) {
 function verdict({ now, faster }, document) {
   const rate = rateOf(document);
   const pace = (side, name) => Math.abs(side[`${name}${rate}`]);
-  if (!now) return "Now has no motion that can be sent.";
+  if (!now) return "The gait in column “Now” has no motion that can be sent to the robot.";
   const times = (name) => pace(faster, name) / pace(now, name);
-  const words = (ratio) => `${ratio < 1 ? "slower, " : ""}${fixed(ratio, 2)} times as fast`;
-  const parts = faster.cycle_speed === null ? [] : [`in mid-walk ${words(times("cycle_"))}`];
-  parts.push(`from rest to rest ${words(times(""))}`);
-  const sentences = [`${capital(parts.join(", "))}.`];
+  const words = (ratio) => `${fixed(ratio, 2)} times as fast${ratio < 1 ? " (slower)" : ""}`;
+  const parts = faster.cycle_speed === null ? [] : [`${words(times("cycle_"))} in mid-walk`];
+  parts.push(`${words(times(""))} from rest to rest`);
+  const sentences = [`The gait for the robot's clock is ${parts.join(" and ")}.`];
   if (times("") < WORTH) sentences.push(MORE);
   if (document.iterations < MIDDLE) sentences.push(FEW);
   return sentences.join(" ");

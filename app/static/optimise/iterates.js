@@ -11,7 +11,7 @@ export function mountIterates(store, section) {
   const slider = h("input", { type: "range", id: "iteration", min: 0, step: 1, "aria-label": "Iteration" });
   const number = h("span", { class: "number" });
   const back = h("button", { text: "Back to the plan", hidden: true });
-  const row = h("div", { class: "iterates" }, h("label", { class: "quiet", for: "iteration", text: "Iteration", title: "Shows the motion at an iteration in 3D and plots; 0 is the start" }), slider, number, back);
+  const row = h("div", { class: "iterates" }, h("label", { class: "quiet", for: "iteration", text: "Iteration", title: "Shows the motion at this iteration of the optimiser, in 3D and in the plots. Iteration 0 is the start" }), slider, number, back);
   const gone = h("p", { class: "why" });
   section.append(row, gone);
 
@@ -55,7 +55,7 @@ export function mountIterates(store, section) {
     row.toggleAttribute("data-on", Boolean(state.iterate));
     const lost = job && !jobIsOn(job) && count === 0 && job.progress?.length > 1;
     gone.hidden = !lost;
-    setText(gone, lost ? "The motions of its iterations are no longer kept. Optimise again to look at them." : "");
+    setText(gone, lost ? "The motions at the optimiser's iterations are no longer stored. Optimise again to see these motions." : "");
   });
   store.watch(({ selected, view, gesture, pending, shownJob }) => [selected, view?.revision, gesture, pending.length, shownJob], leave);
   return { leave: () => { const on = Boolean(store.state.iterate); leave(); return on; } };

@@ -45,7 +45,7 @@ function infeasibleParts(plan, goTo) {
   // The last sentence names the scope of the answer: every motion, or the live tier's model.
   const [first = "", ...rest] = explanation;
   const closing = rest.at(-1) ?? first;
-  const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for even footholds" : evidence ?? "";
+  const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for evenly spaced footholds" : evidence ?? "";
   const sentence = h("p", { class: "first", title: explanation.join(" ") }, first, text && h("span", { class: "quiet", text: ` (${text})`, title: closing }));
   return [sentence, ...(lacks.length ? missingMotionList(lacks, plan, goTo) : [])];
 }
@@ -63,7 +63,7 @@ function verdictOf(state, goTo) {
   const first = (text) => () => [h("p", { class: "first", text })];
   if (isRefusedDrawing(state)) return { title, about: plan.refusal.sentence, build: first(plan.refusal.sentence), mendable: true };
   const fall = fallOf(state);
-  return fall ? { title: "It tips in physics", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
+  return fall ? { title: "The robot tips over in the simulation", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
 }
 
 /**
@@ -92,14 +92,14 @@ export function liveAnswer(store, edits, goTo) {
     edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
   };
   const remedies = remedyList({ use, show: tryout.show, end: tryout.end });
-  const [title, up] = [h("span", {}), h("button", { class: "link", text: "↑", "aria-label": "What would help", title: "Up to what would help", hidden: true })];
+  const [title, up] = [h("span", {}), h("button", { class: "link", text: "↑", "aria-label": "What would help", title: "Scroll up to “What would help”", hidden: true })];
   const panel = byId("sections");
   const top = () => { up.hidden = panel.scrollTop < SCROLLED_PX; };
   up.addEventListener("click", () => { panel.scrollTop = 0; });
   panel.addEventListener("scroll", top, { passive: true });
   const why = h("div", { class: "advice-why" });
   const body = h("div", { class: "advice" }, why, remedies.element);
-  const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why it is infeasible", hidden: true }, h("h3", { class: "advice-title" }, title, up), body);
+  const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why the gait is infeasible", hidden: true }, h("h3", { class: "advice-title" }, title, up), body);
   let shown = null;
   keepPlace(store, body);
   const show = (state) => {
@@ -117,7 +117,7 @@ export function liveAnswer(store, edits, goTo) {
   return { element, show };
 }
 
-const TITLES = { infeasible: "Optimise found no motion either", failed: "Optimise failed", interrupted: "Optimise was interrupted" };
+const TITLES = { infeasible: "Optimise also found no motion", failed: "Optimise failed", interrupted: "Optimise was interrupted" };
 
 /** The box with the exact tier's refusal. */
 export function jobAnswer() {

@@ -5,11 +5,12 @@ import { historyAction } from "../state/fields.js";
 import { refusalOf } from "../lib/field_error.js";
 
 const MOST = 20_000;
-const MEANWHILE = "The notes were changed elsewhere meanwhile. Leave the field to keep yours instead, or press Escape for those.";
+const MEANWHILE = "The notes were changed in another window while you were typing. To keep your text, leave the field. "
+  + "To take the other text, press Escape.";
 
 function refusedNotes(text) {
   const { length } = [...text];
-  return length > MOST ? `Notes have ${length} characters; at most ${MOST} are kept. Shorten them, or press Escape.` : null;
+  return length > MOST ? `The notes have ${length} characters, but at most ${MOST} are possible. Shorten the notes, or press Escape to restore the old notes.` : null;
 }
 
 /** The text of the field and of the document: `write` shows one, `isTyped` returns whether they differ. */
@@ -46,9 +47,9 @@ function mountNoteKeys(area, edits, { text, keep, giveUp }) {
  * @returns {{element: HTMLElement, show: (document: object) => void}}
  */
 export function notesField(store, edits) {
-  const area = h("textarea", { "aria-label": "Notes", rows: "2", placeholder: "What it is for, what was seen" });
+  const area = h("textarea", { "aria-label": "Notes", rows: "2", placeholder: "What the gait is for, what you observed" });
   const refusal = refusalOf(area);
-  const element = h("label", { class: "field notes-field", title: "Words of your own; no motion depends on them" }, h("span", { class: "name", text: "Notes" }), area, refusal.element);
+  const element = h("label", { class: "field notes-field", title: "Your own text about this gait. The notes do not change the motion" }, h("span", { class: "name", text: "Notes" }), area, refusal.element);
   const text = shownText(area, refusal);
   let known = "";
 

@@ -19,10 +19,11 @@ import { pinnedPoses } from "./pinned_poses.js";
 import { poseSearch } from "./pose_search.js";
 import { timingAnswer, timingButton, timingNote } from "./timing.js";
 
-const POSES = "After each edit you see the last motion, adapted to the new values, while the studio searches for the fastest motion.";
+const POSES = "After each edit, the studio searches for the fastest motion. "
+  + "Meanwhile you see the last motion, adapted to the new values.";
 const nameOf = (element) => element.querySelector("[aria-label]").getAttribute("aria-label");
 
-const TIERS = "The plan follows your edits. Optimise also improves footholds and body height.";
+const TIERS = "The plan is updated after each edit. Optimise also improves the footholds and the body height.";
 
 function exactButton(store) {
   const button = h("button", { class: "wide", text: "Optimise" });
@@ -32,8 +33,8 @@ function exactButton(store) {
   }), (why) => toast(why));
   store.watch(({ jobs, view, pending, selected }) => [jobs, view, pending.length, selected], (state) => {
     const busy = state.jobs.some((job) => job.gait === state.selected && job.kind === "optimise" && jobIsOn(job));
-    const why = !state.view ? "No gait is selected." : busy ? "This gait is being optimised. Cancel the job or wait for it." : null;
-    setAllowed(button, why ?? (state.view.document.poses ? POSES : null) ?? (state.pending.length ? "The last edit is not accepted yet." : null), TIERS);
+    const why = !state.view ? "No gait is selected." : busy ? "This gait is being optimised. Cancel the job, or wait until the job ends." : null;
+    setAllowed(button, why ?? (state.view.document.poses ? POSES : null) ?? (state.pending.length ? "The studio is still saving your last edit." : null), TIERS);
   });
   return button;
 }
@@ -102,7 +103,7 @@ function noteLine(store) {
   store.watch((state) => [state.iterate, ownPlan(state), state.view === null], (state) => {
     // Not that of a way out: the panel would move under the pointer.
     const plan = state.iterate?.plan ?? ownPlan(state);
-    setText(element, hasNoMotion(plan) ? "" : plan ? plan.note.replace(/^\w+: /, "") : state.view ? "No plan: optimise this gait to see it move." : "");
+    setText(element, hasNoMotion(plan) ? "" : plan ? plan.note.replace(/^\w+: /, "") : state.view ? "This gait has no plan yet. Press Optimise to see the gait move." : "");
   });
   return element;
 }
@@ -110,21 +111,21 @@ function noteLine(store) {
 const QUIET = { text: "", title: null, tone: null };
 
 function ofFile({ file, form, assumed }) {
-  const text = form === "waypoints" ? `Waypoints of ${file}; Optimise replaces them.` : `Recorded in ${file}; Optimise replaces it.`;
+  const text = form === "waypoints" ? `This motion was read from the waypoints in ${file}. Optimise replaces the motion.` : `This motion was recorded in ${file}. Optimise replaces the motion.`;
   return { text, title: assumed.join("\n") || null, tone: null };
 }
 
 function details({ solver, method, program, motion, trajectory }) {
-  return `${solver}, method ${method}, Footfall Studio ${program}\nasked ${shortHash(motion)}, result ${shortHash(trajectory)}`;
+  return `Solver ${solver}, method ${method}, Footfall Studio ${program}\nHash of the problem ${shortHash(motion)}, hash of the result ${shortHash(trajectory)}`;
 }
 
 function ofResult(provenance, source, isEdited) {
   const { made, seconds, matches, at_hand: isHere } = provenance;
   const [when, title] = [clockTime(made), details(provenance)];
-  if (!matches || isEdited) return { text: `Optimised ${when} for another version: out of date.`, title, tone: "caution" };
+  if (!matches || isEdited) return { text: `Optimised ${when}, but for another version of this gait. The result is out of date.`, title, tone: "caution" };
   if (isHere) return { text: `Optimised ${when} in ${fixed(seconds * 1000, 0)} ms.`, title, tone: null };
-  if (source === "optimised") return { text: `Optimised elsewhere ${when}. The shown motion was computed by this studio.`, title, tone: null };
-  return { text: `Optimised elsewhere ${when}. This studio does not have the result. Optimise again.`, title, tone: "caution" };
+  if (source === "optimised") return { text: `Optimised ${when} in another studio. This studio computed the shown motion again.`, title, tone: null };
+  return { text: `Optimised ${when} in another studio. This studio does not have the result. Press Optimise to compute it again.`, title, tone: "caution" };
 }
 
 function words({ view, pending, gesture }) {

@@ -4,8 +4,9 @@ import { pinWords, pinnedOf, withoutPinned } from "../document/pinned_poses.js";
 import { h, setText } from "../lib/dom.js";
 import { shownDocument } from "../state/store.js";
 
-const HOW = "Pause at a pose and drag its mark in the 3D preview, or move it by arrow keys: the search keeps the body there and solves all other poses again.";
-const NOT_HERE = "Poses cannot be pinned in a gait that turns or sways, or whose stop bound cuts moves.";
+const HOW = "Pause at a pose, and drag its mark in the 3D preview or move the mark with the arrow keys. "
+  + "The search keeps the body at this place and computes all other poses again.";
+const NOT_HERE = "Poses cannot be pinned here, because this gait turns, sways, or has moves that the stop bound cuts.";
 
 /** The list, hidden for every other gait. */
 export function pinnedPoses(store, edits, goTo) {

@@ -5,23 +5,23 @@ import { fixed, mm } from "../lib/format.js";
 import { oneTabStop } from "../lib/tab_stop.js";
 import { footfalls } from "../shell/footfalls.js";
 
-const NO_PHYSICS = { text: "Being tried in physics…", tone: null, title: null };
+const NO_PHYSICS = { text: "A simulation is running…", tone: null, title: null };
 
 /** The result of the physics trial of a remedy, as a short text. */
 function physicsWords({ kind, physics, caution }, isTrying) {
   if (!physics) return isTrying ? NO_PHYSICS : { text: caution, tone: "caution", title: null };
-  if (physics.walks === null) return { text: "Physics gave no result.", tone: "caution", title: physics.sentence };
+  if (physics.walks === null) return { text: "The simulation gave no result.", tone: "caution", title: physics.sentence };
   // What is likely to tip has proven that it does not; arms that touch still do.
-  if (physics.walks && caution && kind !== "no_margin") return { text: `Walks in physics. ${caution}`, tone: "caution", title: null };
-  return physics.walks ? { text: "Walks in physics.", tone: "good", title: null } : { text: "Does not walk in physics.", tone: "caution", title: physics.sentence };
+  if (physics.walks && caution && kind !== "no_margin") return { text: `Walks in the simulation. ${caution}`, tone: "caution", title: null };
+  return physics.walks ? { text: "Walks in the simulation.", tone: "good", title: null } : { text: "Does not walk in the simulation.", tone: "caution", title: physics.sentence };
 }
 
 /** A row for a remedy; `update` shows new results in place. */
 function row(remedy, { use, show, end }) {
   const { label, sentence, document, robot_seconds: robotSeconds } = remedy;
   const [margin, physics] = [h("span", { class: "number remedy-margin" }), h("span", {})];
-  const price = robotSeconds === null ? "" : ` ${fixed(robotSeconds)} s on the robot.`;
-  const button = h("button", { text: "Use this", "aria-label": `Use this: ${label}`, title: "Undo brings your drawing back.", on: { click: () => use(document, label) } });
+  const price = robotSeconds === null ? "" : ` Takes ${fixed(robotSeconds)} s on the robot.`;
+  const button = h("button", { text: "Use this", "aria-label": `Use this: ${label}`, title: "Makes this change. Undo restores your drawing.", on: { click: () => use(document, label) } });
   const element = h("li", { class: "remedy", on: { pointerenter: () => show(document), pointerleave: end, focusin: () => show(document), focusout: end, keydown: ({ key }) => { if (key === "Escape") end(); } } },
     footfalls(document.timeline.feet), h("b", { text: label }), margin, h("p", { class: "quiet" }, `${sentence}${price} `, physics), button);
   return {
@@ -46,8 +46,8 @@ function orderOf(labels, shown, isHeld) {
 
 function noteOf({ searching, trying, complete, list, sentence }) {
   if (sentence) return sentence;
-  if (searching) return list.length ? "Looking for more…" : "Looking for what would help…";
-  if (!list.length) return trying ? "Looking for what would help…" : complete ? "No change was found that makes it walk." : "The search was cut short. Change the drawing to begin again.";
+  if (searching) return list.length ? "Looking for more changes that help…" : "Looking for changes that help…";
+  if (!list.length) return trying ? "Looking for changes that help…" : complete ? "No change was found with which the robot can walk." : "The search ended early. Change the drawing to start a new search.";
   return "";
 }
 

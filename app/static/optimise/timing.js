@@ -7,7 +7,7 @@ import { jobIsOn } from "../shell/job_list.js";
 import { stepTurn } from "../document/step.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const HELP = "Find the shortest phases that the motors, the margin and the clearance allow, for this foot order and step";
+const HELP = "Finds the shortest phases for this foot order and step that keep the limits of motors, stability margin and clearance";
 
 /** The newest search of the selected gait, unless the gait has changed since. */
 function timingOf({ jobs, selected }) {
@@ -15,17 +15,17 @@ function timingOf({ jobs, selected }) {
   return job && (jobIsOn(job) || job.fresh) ? job : null;
 }
 
-const TURNS = "The fastest timing is for gaits that do not turn. Set Turn to 0.";
+const TURNS = "Fastest timing works only for gaits that do not turn. Set Turn to 0.";
 
 function whyNot(state) {
   const { view, pending } = state;
   if (!view) return "No gait is selected.";
-  if (pending.length) return "The last edit is not accepted yet.";
-  if (view.document.poses) return "This gait is made for the robot's clock, which has no timing to choose.";
-  if (view.document.segment_table) return "This gait is made by hand from its segment table. Draw on the timeline first.";
+  if (pending.length) return "The studio is still saving your last edit.";
+  if (view.document.poses) return "This is a gait for the robot's clock: the robot's firmware decides its timing.";
+  if (view.document.segment_table) return "This gait is defined by its segment table. To use Fastest timing, draw on the timeline first.";
   if (stepTurn(view.document) !== 0) return TURNS;
   const job = timingOf(state);
-  return job && jobIsOn(job) ? "A search is running. Cancel the job or wait for it." : null;
+  return job && jobIsOn(job) ? "A search is running. Cancel the search, or wait until the search ends." : null;
 }
 
 /** The button that begins the search. */
@@ -47,7 +47,7 @@ export function timingNote(store) {
 function bar(name, durations, phases, longest, document) {
   const pieces = durations.map((seconds, index) => {
     const air = document.timeline.feet.findIndex((row) => row[phases[index].first] === "0");
-    const piece = h("i", { data: air < 0 ? {} : { foot: air + 1 }, title: `${air < 0 ? "every foot down" : `foot ${air + 1} in the air`}: ${fixed(seconds, 2)} s` });
+    const piece = h("i", { data: air < 0 ? {} : { foot: air + 1 }, title: `${air < 0 ? "all feet down" : `foot ${air + 1} in the air`}: ${fixed(seconds, 2)} s` });
     piece.style.flexGrow = seconds;
     return piece;
   });
@@ -66,24 +66,24 @@ async function use(usable, store, edits) {
 
 /** What the usable timing does to the robot's time, and whether that is any help. */
 function onRobot({ seconds, robot_seconds: after }, { plan_seconds: planned, robot_seconds: before }) {
-  if (after === null) return ["It cannot be sent to the robot.", false];
-  if (before === null) return [`On the robot: ${fixed(after)} s.`, true];
-  const change = `Planned ${fixed(planned)} → ${fixed(seconds)} s · on the robot ${fixed(before)} → ${fixed(after)} s.`;
-  return after < before ? [change, true] : [`${change} The robot stops at each waypoint, so this timing does not help it.`, false];
+  if (after === null) return ["The gait with this timing cannot be sent to the robot.", false];
+  if (before === null) return [`The gait with this timing takes ${fixed(after)} s on the robot.`, true];
+  const change = `Planned time: ${fixed(planned)} → ${fixed(seconds)} s. Time on the robot: ${fixed(before)} → ${fixed(after)} s.`;
+  return after < before ? [change, true] : [`${change} The robot stops at each waypoint, so this timing does not make the robot faster.`, false];
 }
 
-const NO_WHOLE = "In whole samples no timing this short was found that keeps every limit.";
+const NO_WHOLE = "Each phase must last a whole number of samples. No timing of whole samples was found that is shorter and keeps all limits.";
 /** What to do where the timing itself does not help. */
 const INSTEAD = {
-  faster: "Try Faster on the robot: it makes the same gait in robot time.",
-  fewer: "Fewer waypoints help: merge within 1 mm, or allow a longer stop bound, in Check & approve.",
+  faster: "Try “Faster on the robot”, which makes the same gait with a timing for the robot's firmware.",
+  fewer: "Fewer waypoints make the robot faster. In Check & approve, merge waypoints within 1 mm or choose a longer stop bound.",
 };
 const insteadOf = (view) => (view.conversion_refusal ? INSTEAD.fewer : INSTEAD.faster);
 
 /** What the box says of a search without a result. */
 function withoutResult(job) {
-  if (jobIsOn(job)) return "Searching; this takes some seconds.";
-  return job.state === "infeasible" ? `${job.sentence} Change the drawing first: see What would help.` : job.sentence;
+  if (jobIsOn(job)) return "The search is running and takes some seconds.";
+  return job.state === "infeasible" ? `${job.sentence} Change the drawing first, for example as “What would help” says.` : job.sentence;
 }
 
 function found({ result }, view, store, edits) {
@@ -100,9 +100,9 @@ function found({ result }, view, store, edits) {
   const note = h("p", { text: change });
   if (!helps) return [bars, note, h("p", { class: "why", text: insteadOf(view) })];
   const label = `Use ${fixed(usable.seconds)} s`;
-  const button = h("button", { text: label, title: "Takes over the phases in whole samples and the motors' limits, and runs Optimise",
+  const button = h("button", { text: label, title: "Changes the phases and the motor limits of the gait to this timing, and starts Optimise",
     on: { click: attempt(() => use(usable, store, edits)) } });
-  return [bars, note, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `rounded to samples of ${fixed(usable.sample_time, 2)} s` }))];
+  return [bars, note, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `phases rounded to samples of ${fixed(usable.sample_time, 2)} s` }))];
 }
 
 /** The box with what the search found. */

@@ -1,7 +1,6 @@
 /** Actions on a pattern: show it walking in 3D, make a gait of it, or draw it into the open gait. */
 
 import { openView } from "../timeline/views.js";
-import { capital } from "../lib/format.js";
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { ticket } from "../lib/latest_only.js";
@@ -11,30 +10,32 @@ import { shownDocument } from "../state/store.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
 
 const LABEL = "Complete the drawing";
+const NOTHING_NEW = "This pattern is the same as the drawing, so there is nothing to complete. "
+  + "Choose another of the best patterns, or free some cells.";
 const BALANCE = RULES.find(({ rule }) => rule === "balance");
 /** Advice for a pattern without a motion: what the panel offers and is not done yet. */
 function adviceText(state) {
   const ways = [
-    state.mode === "transition" && !state.walkable && "ask for swings that the feet can do",
-    !ruleOf(state, BALANCE).on && "switch the balance margin on among the rules",
-    "take another of the best patterns",
+    state.mode === "transition" && !state.walkable && "tick “Swings that the feet can do”",
+    !ruleOf(state, BALANCE).on && "switch on the rule “Balance margin”",
+    "choose another of the best patterns",
     "shorten the step",
   ].filter(Boolean);
   const words = `${ways.slice(0, -1).join(", ")} or ${ways.at(-1)}`;
-  return `The live optimiser finds no motion for it. ${capital(words)}.`;
+  return `The live optimiser finds no motion for this pattern. You can ${words}.`;
 }
 
-const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${adviceText(state)}` : " Play shows it walking.");
+const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${adviceText(state)}` : " Press Play to see the gait walk.");
 
 /** The pattern in the grid, or why none can be used. */
 function usable({ result, running, chosen, waiting }) {
-  if (running || waiting) return [null, "The search is not finished."];
+  if (running || waiting) return [null, "The pattern search is still running."];
   const pattern = result?.patterns[chosen] ?? null;
   return [pattern, pattern ? null : "There is no pattern yet."];
 }
 
 /** Why drawing a pattern would not change the open gait, or null if it would. */
-const nothingToDraw = (pattern, document) => (pattern?.feet.join() === document?.timeline.feet.join() ? "Nothing to complete: this pattern is what is drawn already. Take another of the best patterns, or free cells." : null);
+const nothingToDraw = (pattern, document) => (pattern?.feet.join() === document?.timeline.feet.join() ? NOTHING_NEW : null);
 
 /**
  * Builds the buttons.
@@ -67,7 +68,7 @@ export function patternActions(store, problem, { edits, playback, show }) {
     if (problem.state.mode === "drawing") {
       const { document } = await api.patternDocument(body());
       await edits.edit((now) => ({ ...now, timeline: { ...now.timeline, feet: document.timeline.feet }, ...(document.held ? { held: document.held } : {}) }), LABEL, { drawing: true, gait });
-      announce("The drawing is completed. Undo takes it back.");
+      announce("The drawing is completed. Undo restores the old drawing.");
       openView("cells");
       return;
     }
@@ -75,7 +76,7 @@ export function patternActions(store, problem, { edits, playback, show }) {
     await show(view.id);
     openView("cells");
     document.querySelector('#gaits [aria-current="true"]')?.scrollIntoView({ block: "nearest" });
-    toast(`${view.name} is made and open.${adviceFor(view.plan, problem.state)}`, { of: "studio" });
+    toast(`The gait “${view.name}” is made and open.${adviceFor(view.plan, problem.state)}`, { of: "studio" });
   });
 
   const toggleWalk = attempt(async () => {
@@ -88,9 +89,9 @@ export function patternActions(store, problem, { edits, playback, show }) {
     const { selected } = store.state;
     const plan = await api.patternPlan(body());
     if (isOld() || store.state.selected !== selected) return;
-    if (!plan.times.length) throw new Error(plan.refusal?.sentence ?? "This pattern makes no motion.");
-    store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note: `The pattern, not the open gait. ${plan.note}` } } });
-    if (plan.live?.status === "infeasible") toast(`What is shown does not keep every limit. ${adviceText(problem.state)}`);
+    if (!plan.times.length) throw new Error(plan.refusal?.sentence ?? "No motion was found for this pattern.");
+    store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note: `You see the pattern, not the open gait. ${plan.note}` } } });
+    if (plan.live?.status === "infeasible") toast(`The shown motion does not keep all limits. ${adviceText(problem.state)}`);
     playback.toStart();
     playback.play();
   });
@@ -107,10 +108,10 @@ export function patternActions(store, problem, { edits, playback, show }) {
       const isDrawing = problem.state.mode === "drawing";
       const whyNot = why ?? (isDrawing ? whyNotDrawn(shownDocument(store.state)) ?? nothingToDraw(pattern, shownDocument(store.state)) : null);
       setText(make, isDrawing ? LABEL : "Make gait");
-      setAllowed(make, whyNot, isDrawing ? "Draws the pattern into the open gait, as one edit that Undo takes back" : "A new gait in the list, which is opened; Delete takes it away again");
+      setAllowed(make, whyNot, isDrawing ? "Draws the pattern into the open gait. Undo restores the old drawing" : "Makes a new gait with this pattern, adds the gait to the list and opens it");
       const walking = Boolean(store.state.iterate?.pattern);
       setText(walk, walking ? "Stop walking" : "Walk it");
-      setAllowed(walk, walking ? null : why, walking ? "Back to the open gait's plan" : "The live optimiser moves the robot through it in 3D; nothing is saved");
+      setAllowed(walk, walking ? null : why, walking ? "Shows the plan of the open gait again" : "Shows in 3D how the robot walks with this pattern. Nothing is saved");
     },
   };
 }

@@ -5,10 +5,14 @@ import { drawnCells, withCells } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const REFUSALS = {
-  end: "This column is the state of a gait at its cursor. Move the cursor to another sample.",
-  limb: "This limb is locked. Click its name to unlock it.",
-  given: "This cell is fixed by the drawing. Unlock it on the timeline.",
+  end: "You cannot draw in the first and last column. In a transition, move the cursor of gait A or B to change these columns.",
+  limb: "This limb is locked. To unlock the limb, click its name.",
+  given: "This cell is fixed in the drawing of the open gait. Unlock the cell on the timeline.",
 };
+
+const DRAWN = "You drew this cell. Click to free the cell.";
+const FREE = "Click: change between swing and stance. Shift+click: fix the cell with its value. "
+  + "Drag: the same for several cells.";
 
 /** Turns places on the screen into cells; measured once a drag. */
 function finder(lines) {
@@ -108,7 +112,7 @@ export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
   function explain(event) {
     const cell = cellOf(event.target);
     if (!cell || drag) return;
-    lines()[cell[0]].cells[cell[1]].title = refusal(cell) ?? (isDrawn(cell) ? "Drawn: click to free it." : "Click to draw the other value; with Shift it is fixed as it is. Drag over more cells.");
+    lines()[cell[0]].cells[cell[1]].title = refusal(cell) ?? (isDrawn(cell) ? DRAWN : FREE);
   }
 
   const end = (event) => { if (drag?.pointer === event.pointerId) drag = null; };

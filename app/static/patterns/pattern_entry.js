@@ -8,9 +8,9 @@ import { report } from "../lib/toasts.js";
 const KEY = "footfall.patterns.open";
 
 const ENTRIES = [
-  { mode: "transition", text: "Transition to…", help: "The footfall pattern that leads from this gait to another one" },
-  { mode: "limbs", text: "Gait for some limbs…", help: "A gait of the limbs that are free, while others are held up, broken or stand" },
-  { mode: "drawing", text: "Complete the drawing…", help: "Keeps what is locked in this gait's timeline and finds the rest" },
+  { mode: "transition", text: "Transition to…", help: "Searches for the footfall pattern of a transition from this gait to another gait" },
+  { mode: "limbs", text: "Gait for some limbs…", help: "Searches for a gait in which only some limbs walk. The other limbs are held up, broken or on the ground" },
+  { mode: "drawing", text: "Complete the drawing…", help: "Keeps the locked cells of this gait's timeline and searches for the other cells" },
 ];
 
 function remembersOpen(open) {

@@ -5,14 +5,14 @@ import { shownDocument } from "../state/store.js";
 import { limbsOf, ROLES } from "./pattern_problem.js";
 
 const MODES = {
-  transition: ["Transition", "From a state of one gait to a state of another"],
-  limbs: ["Some limbs", "A gait of the limbs that are free to walk"],
-  drawing: ["Complete", "The open gait's drawing: what is locked stays, the rest is found"],
+  transition: ["Transition", "Searches for a transition from one gait to another gait"],
+  limbs: ["Some limbs", "Searches for a gait in which only some limbs walk"],
+  drawing: ["Complete", "Keeps the locked cells of the open gait and searches for the other cells"],
 };
 const TEACH = {
-  transition: "Choose gaits and cursors below. Click cells to draw what you want; the others follow.",
-  limbs: "Choose what each limb does. The others walk, and the pattern repeats.",
-  drawing: "Locked cells of the open gait stay, with both ends. The rest is found.",
+  transition: "Choose two gaits below, and move the cursor in each gait. Click cells to draw swing or stance. The search finds the other cells.",
+  limbs: "Choose the limbs that do not walk. The search finds a repeating pattern for the other limbs.",
+  drawing: "The locked cells of the open gait stay, and so do its first and last sample. The search finds the other cells.",
 };
 const [LEAST, MOST] = [2, 240];
 
@@ -47,12 +47,12 @@ export function patternFields(store, problem, lock) {
     return document ? { robot: document.robot, legs: document.timeline.feet.length, roles: store.state.view.roles ?? [] } : null;
   };
   const choice = modes(problem);
-  const samples = lengthField("Length", "Of the transition, with its two boundary samples", (value) => problem.set({ samples: value }));
+  const samples = lengthField("Length", "Number of samples of the transition, including its first and last sample", (value) => problem.set({ samples: value }));
   const cycle = lengthField("Length of a cycle", "The pattern repeats after this many samples", (value) => problem.set({ cycle: value }));
-  const shortest = check("Shortest that works", "The search chooses the length: as few samples as the rules allow", (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
-  const walkable = check("Swings that the feet can do", "Beyond the thesis: every swing, also one that a cursor cuts, is long enough for the feet to take the gaits' steps", (on) => problem.set({ walkable: on }));
-  const keep = check("Keep what I drew where you can", "What is shown now, or the gait's own drawing, is a hint: of patterns that are equally good the one most like it is taken", (on) => problem.set({ keep: on }));
-  const painted = check("Swings stay as they are painted", "Every painted swing is fixed, beside the locked cells", (on) => problem.set({ painted: on }));
+  const shortest = check("Shortest that works", "The search chooses the length. It uses as few samples as the rules allow", (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
+  const walkable = check("Swings that the feet can do", "Makes every swing long enough for the steps of both gaits, also swings at the start and end of the transition. This rule is not in the footfall thesis", (on) => problem.set({ walkable: on }));
+  const keep = check("Keep what I drew where you can", "The search prefers patterns that are similar to the shown pattern", (on) => problem.set({ keep: on }));
+  const painted = check("Swings stay as they are painted", "Keeps every painted swing, in addition to the locked cells", (on) => problem.set({ painted: on }));
   const [limbs, locks] = [limbChoices(problem, about), limbLocks(problem, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null })];
   const locking = h("div", { class: "pattern-locking" }, h("span", { class: "quiet", text: "Locked limbs" }), locks.element);
   const teach = h("p", { class: "teach" });
@@ -76,7 +76,7 @@ export function patternFields(store, problem, lock) {
   };
 }
 
-const HELP = { walks: "takes steps", held: "held up, for another task", broken: "does not move any more; it is held up", stands: "stays on the ground" };
+const HELP = { walks: "takes steps", held: "held up, for another task", broken: "cannot move, and is held up", stands: "stays on the ground" };
 
 const sameLength = (own, count, build) => {
   if (own.length === count) return own;
@@ -134,7 +134,7 @@ function limbLocks(problem, { refusal, lock }) {
       buttons.forEach((button, foot) => {
         const isGiven = given(foot);
         setAttribute(button, "aria-pressed", String(isGiven || problem.state.locked.includes(foot)));
-        setAllowed(button, isGiven ? "Both gaits leave this limb as it is, and so does the transition." : refusal(foot), "The limb keeps its value of both ends, and does not count as a walking limb");
+        setAllowed(button, isGiven ? "This limb keeps one state in both gaits, and therefore also in the transition." : refusal(foot), "Locks this limb. A locked limb keeps one state during the whole transition, and does not count as a walking limb");
       });
     },
   };

@@ -29,6 +29,9 @@ export function stateText(feet, sample) {
   return `${standing.length ? one(standing, "stand") : "no foot stands"}, ${one(swinging, "swing")}`;
 }
 
+const cursorHelp = (side) => `The transition ${side === "from" ? "starts" : "ends"} with the state of this gait at the cursor. `
+  + "To move the cursor, click, drag, or press Left, Right (with Shift: ten samples), Home or End";
+
 /**
  * Builds a gait's part.
  * @param {{side: "from"|"to", name: string, help: string, choose: (gait: string) => void, move: (sample: number) => void}} options
@@ -41,7 +44,7 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
   const lines = h("div", { class: "pattern-lines", "aria-hidden": "true" });
   const cursor = h("div", { class: "pattern-cursor", "aria-hidden": "true" });
   const strip = h("div", { class: "pattern-strip", role: "slider", tabindex: "0", "aria-label": `${name}: boundary sample`, "aria-valuemin": "1", "aria-valuemax": "1", "aria-valuenow": "1", data: { arrows: "" },
-    title: "The sample whose state the transition has at this end: click, drag, or Left and Right (Shift: ten), Home, End" }, image, lines, cursor);
+    title: cursorHelp(side) }, image, lines, cursor);
   const element = h("div", { class: "pattern-lane" }, h("div", { class: "pattern-head" }, h("b", { class: "pattern-letter", text: side === "from" ? "A" : "B", "aria-hidden": "true" }), select, words),
     h("div", { class: "pattern-row" }, h("span", { class: "quiet pattern-side", text: side === "from" ? "from here" : "to here" }), strip));
   let [drawn, count, at, sampleTime] = [null, 1, 0, 0];

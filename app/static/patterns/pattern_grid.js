@@ -41,7 +41,8 @@ function drawRow(line, foot, shown, role) {
  */
 export function patternGrid(problem, actions) {
   const element = h("div", { class: "timeline pattern-grid", role: "grid", "aria-label": "Pattern",
-    "aria-description": "Space draws the other value and fixes it, on a drawn cell it frees it; K fixes the cell as it is" });
+    "aria-description": "Space changes a cell between swing and stance and fixes the cell. On a drawn cell, Space frees the cell. "
+      + "K fixes a cell with its value" });
   let lines = [];
   let now = { samples: 0 };
   const roving = rovingFocus(() => lines, () => {});

@@ -7,10 +7,10 @@ import { relaxed, ruleOf, RULES } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const TEXTS = {
-  optimal: ["Optimal", "good", "nothing better keeps the rules"],
-  feasible: ["Feasible", "caution", "it keeps the rules; a better one may exist"],
-  infeasible: ["Infeasible", "caution", "no pattern keeps all rules"],
-  cancelled: ["Cancelled", "quiet", "broken off before a pattern was found"],
+  optimal: ["Optimal", "good", "No better pattern keeps the rules"],
+  feasible: ["Feasible", "caution", "This pattern keeps the rules. A better pattern may exist"],
+  infeasible: ["Infeasible", "caution", "No pattern keeps all rules"],
+  cancelled: ["Cancelled", "quiet", "The search was cancelled before it found a pattern"],
 };
 
 /** "4 moments of change · 8 foot changes": a pattern's score in words. */
@@ -34,9 +34,9 @@ function progressBox(search) {
       if (!running) return;
       const { objective, bound, seconds: past } = running;
       const known = objective !== null && objective !== undefined;
-      setText(text, `Searching for ${seconds(past ?? 0)} s · ${known ? `best ${scoreText(running.pattern, false)} · score ${fixed(objective, 0)}, at least ${fixed(bound, 0)} · gap ${gapOf(running)} %` : "no pattern yet"}`);
+      setText(text, `Searching for ${seconds(past ?? 0)} s · ${known ? `best so far: ${scoreText(running.pattern, false)} · score ${fixed(objective, 0)}, lower bound ${fixed(bound, 0)} · gap ${gapOf(running)} %` : "no pattern yet"}`);
       bar.style.transform = `scaleX(${known && objective > 0 ? Math.min(Math.max(bound, 0) / objective, 1) : 0})`;
-      setAllowed(useNow, known ? null : "No pattern is found yet.", "Take the best pattern yet and search no further");
+      setAllowed(useNow, known ? null : "No pattern has been found yet.", "Ends the search and uses the best pattern found so far");
     },
   };
 }
@@ -46,7 +46,7 @@ function longerSwings(state, explanation) {
   const needed = Math.max(...explanation.map((text) => Number(/swings? .*?at least (\d+) samples/.exec(text)?.[1] ?? 0)));
   const required = ruleOf(state, RULES.find(({ rule }) => rule === "least_swing")).value;
   return state.mode === "transition" && state.walkable && needed > required
-    ? [h("p", { class: "quiet", text: `The rules ask for ${required}; “Swings that the feet can do” makes it ${needed} for these gaits' steps.` })] : [];
+    ? [h("p", { class: "quiet", text: `The rule asks for swings of ${required} samples. “Swings that the feet can do” asks for ${needed} samples, because of the steps of these gaits.` })] : [];
 }
 
 function conflictBox(problem) {
@@ -62,8 +62,8 @@ function conflictBox(problem) {
       element.hidden = result?.status !== "infeasible";
       if (element.hidden || shown === result) return;
       shown = result;
-      element.replaceChildren(h("h3", { text: "No pattern keeps all of this" }), ...result.explanation.map((text) => h("p", { text })), ...longerSwings(problem.state, result.explanation),
-        h("div", { class: "buttons", role: "group", "aria-label": "What would make it possible" }, ...result.relaxations.map((one) => h("button", { text: one.words, title: "Changes this and searches again", on: { click: () => apply(one) } }))));
+      element.replaceChildren(h("h3", { text: "No pattern keeps all rules and fixed cells" }), ...result.explanation.map((text) => h("p", { text })), ...longerSwings(problem.state, result.explanation),
+        h("div", { class: "buttons", role: "group", "aria-label": "Changes that make a pattern possible" }, ...result.relaxations.map((one) => h("button", { text: one.words, title: "Makes this change and searches again", on: { click: () => apply(one) } }))));
     },
   };
 }
@@ -74,7 +74,7 @@ const thumbnail = (feet) => svg("svg", { class: "pattern-thumbnail", viewBox: `0
 /** The best patterns: pointing at one, or going through them by keys, shows it; a click chooses it. */
 function alternatives(problem, preview) {
   const list = h("ul", { class: "pattern-choices", role: "listbox", tabindex: "0", "aria-label": "Best patterns", data: { arrows: "" } });
-  const title = h("h3", {}, "Best patterns", h("span", { text: "each order once; click one" }));
+  const title = h("h3", {}, "Best patterns", h("span", { text: "each foot order once · click to choose" }));
   const element = h("div", { hidden: true }, title, list);
   let shown = null;
   const choose = (chosen) => { preview(null); problem.set({ chosen }); };
@@ -89,7 +89,7 @@ function alternatives(problem, preview) {
   });
   list.addEventListener("pointerleave", () => preview(null));
   const item = (pattern, index, kept) => h("li", { role: "option", id: `pattern-${index}`, on: { click: () => choose(index), pointerenter: () => preview(index) } },
-    h("span", { class: "number", text: String(index + 1) }), thumbnail(pattern.feet), h("span", { text: scoreText(pattern, kept) }), h("span", { class: "number quiet", text: fixed(pattern.score, 0), title: "The weighted sum; smaller is better" }));
+    h("span", { class: "number", text: String(index + 1) }), thumbnail(pattern.feet), h("span", { text: scoreText(pattern, kept) }), h("span", { class: "number quiet", text: fixed(pattern.score, 0), title: "Score: the weighted sum of all changes. A smaller score is better" }));
   return {
     element,
     show({ result, chosen, keep, mode }) {

@@ -59,14 +59,14 @@ function weightRow(problem, one) {
 
 function fold(title, rows, reset, isOwn) {
   const note = h("span", { class: "quiet" });
-  const button = h("button", { class: "link", text: "Back to the thesis's numbers", on: { click: reset } });
+  const button = h("button", { class: "link", text: "Use the thesis's numbers", on: { click: reset } });
   const element = h("details", { class: "more" }, h("summary", {}, title, note), h("ul", { class: "pattern-rules", "aria-label": title }, ...rows.map((row) => row.element)), button);
   return {
     element,
     show(state) {
       rows.forEach((row) => row.show(state));
       const own = isOwn(state);
-      setText(note, own ? `: ${own} not the thesis's` : "");
+      setText(note, own ? `: ${own} changed` : "");
       button.hidden = !own;
     },
   };

@@ -36,7 +36,7 @@ const hatch = () => svg("svg", { class: "sprite", "aria-hidden": "true" }, svg("
   svg("line", { x1: 0, y1: 0, x2: 0, y2: 0.4, "stroke-width": 0.22, class: "pattern-hatch-line" }))));
 
 function gaitParts(store, problem) {
-  const part = (side, name) => patternGaitStrip({ side, name, help: `The transition leads ${side} this gait`,
+  const part = (side, name) => patternGaitStrip({ side, name, help: `The transition ${side === "from" ? "starts in" : "ends in"} this gait`,
     choose: (gait) => problem.set({ [side]: { gait, sample: null } }), move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }) });
   const parts = { from: part("from", "Gait A"), to: part("to", "Gait B") };
   return {
@@ -59,7 +59,7 @@ function limbLocking(store, problem, shown) {
   const lock = (foot) => {
     const now = shown();
     const { locked } = problem.state;
-    const refusal = now?.given(foot) ? "Both gaits leave this limb as it is." : now?.lockRefusal(foot);
+    const refusal = now?.given(foot) ? "This limb keeps one state in both gaits, and therefore also in the transition." : now?.lockRefusal(foot);
     if (locked.includes(foot)) problem.set({ locked: locked.filter((one) => one !== foot) });
     else if (refusal) toast(refusal);
     else problem.set({ locked: [...locked, foot] });
@@ -78,7 +78,7 @@ function shareAxis(lanes, seconds) {
 function lowerPart(store, problem, lock) {
   const [parts, grid] = [gaitParts(store, problem), patternGrid(problem, { lockLimb: lock })];
   const [title, note] = [h("b"), h("span", { class: "quiet pattern-state" })];
-  const clear = h("button", { class: "link", text: "Free drawn cells", title: "All cells that were drawn here are free again", on: { click: () => problem.set({ ...withCells(problem.state, {}), freed: {} }) } });
+  const clear = h("button", { class: "link", text: "Free drawn cells", title: "Frees all cells that you drew here", on: { click: () => problem.set({ ...withCells(problem.state, {}), freed: {} }) } });
   const [above, below] = [bridge("from"), bridge("to")];
   const empty = h("p", { class: "teach", hidden: true });
   const sought = h("div", { class: "pattern-lane pattern-sought" }, h("div", { class: "pattern-head" }, title, note, clear), grid.element, empty);
@@ -95,7 +95,7 @@ function lowerPart(store, problem, lock) {
       element.toggleAttribute("data-alone", !isTransition);
       if (isTransition) parts.show();
       empty.hidden = Boolean(shown);
-      setText(empty, shown ? "" : "The gaits are being read.");
+      setText(empty, shown ? "" : "Loading the two gaits…");
       grid.element.hidden = !shown;
       if (!shown) return;
       grid.show(shown);
@@ -111,7 +111,7 @@ function lowerPart(store, problem, lock) {
 
 function drawnText(state) {
   const count = Object.keys(drawnCells(state)).length;
-  return count ? `${counted(count, "cell")} drawn` : "click a cell to draw what you want";
+  return count ? `${counted(count, "cell")} drawn` : "click a cell to draw swing or stance";
 }
 
 /**
@@ -133,7 +133,7 @@ export async function mountPatterns(store, page) {
   const fields = patternFields(store, problem, lock);
   const actions = patternActions(store, problem, page);
   const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
-    h("header", { class: "inspector-head" }, h("h2", { text: "Pattern search" }), h("p", { class: "quiet", text: "Who stands when. Another step or view closes it." })),
+    h("header", { class: "inspector-head" }, h("h2", { text: "Pattern search" }), h("p", { class: "quiet", text: "Finds which feet stand at each sample. To close this panel, open Cells." })),
     h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(problem, search, (hovered) => problem.set({ hovered })), ...patternRules(problem)), actions.element);
   const inspector = byId("inspector");
   const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) => inspector.querySelector(`:scope > ${part}`));

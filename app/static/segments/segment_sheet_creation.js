@@ -2,13 +2,14 @@
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { counted } from "../lib/format.js";
 import { drawnRows, isDrawn } from "../document/drawn_timeline.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
 
-const EMPTY = "This gait's footfalls are drawn on the timeline. A segment table says them in words instead: in each segment every foot does one named "
-  + "thing, such as Lift A, Step A or Wait A.";
+const EMPTY = "The footfalls of this gait are drawn on the timeline. A segment table describes footfalls in words: "
+  + "in each segment, every foot makes one named movement, such as Lift A, Step A or Wait A.";
 
 /** The document drawn with phases that fit two segments, or null if a person drew the timeline. */
 function withRoom(document) {
@@ -44,13 +45,14 @@ export function mountSegmentSheetCreation(store, edits) {
     if (store.state.view?.id !== id || store.state.view.revision !== revision) return;
     found = answer;
     offer = table && { ...other, segment_table: table };
-    setAllowed(make, found.table ? null : found.sentence, "The same footfalls as named segments; Undo takes it back");
+    setAllowed(make, found.table ? null : found.sentence, "Describes the same footfalls as named segments. Undo removes the table");
     setText(why, found.sentence ?? "");
     roomy.hidden = !offer;
     if (!offer) return;
     const { phase_knots: phase, closing_knots: closing } = offer.options;
-    setText(roomy, `Make one with phases of ${phase}`);
-    roomy.title = `Redraws the foot order with phases of ${phase} and a final stance of ${closing} samples; Undo takes both back`;
+    setText(roomy, `Make a table with phases of ${phase} samples`);
+    roomy.title = `Draws the timeline again, with phases of ${phase} samples and a final stance of `
+      + `${counted(closing, "sample")}, and makes the table. Undo restores the old timeline`;
   });
 
   onPress(make, () => {
@@ -59,12 +61,12 @@ export function mountSegmentSheetCreation(store, edits) {
   roomy.addEventListener("click", () => {
     const { options, timeline, segment_table: table } = offer;
     edits.edit((document) => ({ ...document, timeline, options: { ...document.options, phase_knots: options.phase_knots, closing_knots: options.closing_knots }, segment_table: table }),
-      `Make a segment table with phases of ${options.phase_knots}`, { drawing: true });
+      `Make a segment table with phases of ${options.phase_knots} samples`, { drawing: true });
   });
   store.watch(({ view }) => [view?.id, view?.revision], (state) => {
     const { view } = state;
     if (!view || view.document.segment_table || view.document.sequence?.length) return;
-    setAllowed(make, "Looking for a table that fits.");
+    setAllowed(make, "The studio is looking for a table that fits this timeline.");
     roomy.hidden = true;
     request({ id: view.id, revision: view.revision, document: shownDocument(state) });
   });

@@ -25,7 +25,7 @@ const withCells = (cells) => (sheet) => {
 
 const put = (sheet, cells, label) => {
   const changed = cells.filter(([row, foot, name]) => sheet.rows[row][foot] !== name);
-  return changed.length ? { change: withCells(changed), label, kept: changed.map(([row, foot]) => [row, foot]) } : { reason: "These cells have this value already." };
+  return changed.length ? { change: withCells(changed), label, kept: changed.map(([row, foot]) => [row, foot]) } : { reason: "These cells already have this segment." };
 };
 
 const cellsOf = ({ rows, feet }) => {
@@ -45,7 +45,7 @@ export function setWaits(sheet, range) {
     const first = range.rows[0];
     const place = placeBefore(sheet, first, foot) ?? sheet.words.segments[sheet.rows[first][foot]]?.start;
     const name = waitAt(sheet, place);
-    if (!name) return { reason: `Foot ${foot + 1} is at ${place} before ${rowName(sheet, first)}, and no segment waits there. Add one under Vocabulary.` };
+    if (!name) return { reason: `Foot ${foot + 1} is at ${place} before ${rowName(sheet, first)}, but no segment waits at ${place}. Add such a segment under Vocabulary.` };
     for (let row = first; row <= range.rows[1]; row += 1) cells.push([row, foot, name]);
   }
   return put(sheet, cells, `${capital(rangeName(sheet, range))} to waiting`);
@@ -54,7 +54,7 @@ export function setWaits(sheet, range) {
 /** The range's first row into its other rows; a single row takes over the one above it. */
 export function fillDown(sheet, range) {
   const from = range.rows[0] === range.rows[1] ? range.rows[0] - 1 : range.rows[0];
-  if (from < 0) return { reason: "There is no row above to fill from." };
+  if (from < 0) return { reason: "The first row cannot be filled, because there is no row above it." };
   return put(sheet, cellsOf(range).map(([row, foot]) => [row, foot, sheet.rows[from][foot]]), `Fill down ${rangeName(sheet, range)}`);
 }
 
@@ -70,16 +70,16 @@ export function paste(sheet, range, names) {
   const block = alone ? cellsOf(range).map(([row, foot]) => [row, foot, names[0][0]]) : names.flatMap((row, down) => row.map((name, right) => [top + down, left + right, name]));
   const fitting = block.filter(([row, foot]) => row < sheet.rows.length && foot < sheet.legs);
   const wrong = fitting.find(([, , name]) => !nameOf(name));
-  if (wrong) return { reason: `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: there is no segment “${wrong[2]}”; known are ${[...known.values()].join(", ")}.` };
+  if (wrong) return { reason: `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: there is no segment “${wrong[2]}”. The known segments are ${[...known.values()].join(", ")}.` };
   const cells = fitting.map(([row, foot, name]) => [row, foot, nameOf(name)]);
   const [below, beside] = [top + names.length - sheet.rows.length, left + Math.max(...names.map((row) => row.length)) - sheet.legs];
-  const missing = alone ? [] : [below > 0 && `${counted(below, "row")} below the last segment`, beside > 0 && `${counted(beside, "column")} behind the last foot`].filter(Boolean);
+  const missing = alone ? [] : [below > 0 && `${counted(below, "row")} below the last segment`, beside > 0 && `${counted(beside, "column")} after the last foot`].filter(Boolean);
   const last = [Math.min(top + names.length, sheet.rows.length) - 1, Math.min(left + Math.max(...names.map((row) => row.length)), sheet.legs) - 1];
   const filled = alone ? range : { rows: [top, last[0]], feet: [left, last[1]] };
   const outcome = put(sheet, cells, `Paste into ${rangeName(sheet, filled)}`);
   const broken = outcome.change && errorsOf(outcome.change(sheet)).find(({ stops }) => stops);
-  if (broken) return { reason: `Not pasted. ${errorSentence(sheet, broken)} The table stays as it was.` };
-  return { ...outcome, range: filled, note: missing.length ? `${missing.join(" and ")} did not fit and were left out.` : null };
+  if (broken) return { reason: `Not pasted. ${errorSentence(sheet, broken)} The table has not changed.` };
+  return { ...outcome, range: filled, note: missing.length ? `${missing.join(" and ")} did not fit and were not pasted.` : null };
 }
 
 /** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` if it is the link's. */
@@ -89,7 +89,7 @@ export function insertRow(sheet, after, inLink = false) {
   for (let foot = 0; foot < sheet.legs; foot += 1) {
     const place = before < 0 ? sheet.words.segments[sheet.rows[0][foot]]?.start : placeAfter(sheet, before, foot);
     const name = waitAt(sheet, place);
-    if (!name) return { reason: `Nothing can be inserted there: foot ${foot + 1} is in mid-air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no segment waits there. Insert before or after its step.` };
+    if (!name) return { reason: `No segment can be inserted here. Foot ${foot + 1} is in the air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no segment waits at ${place}. Insert before or after the step of this foot.` };
     names.push(name);
   }
   const change = (now) => {
@@ -105,7 +105,7 @@ export function insertRow(sheet, after, inLink = false) {
 export function removeRows(sheet, [first, last]) {
   const lastRow = Math.min(last, sheet.count - 1);
   const inTable = Math.max(lastRow - first + 1, 0);
-  if (inTable === sheet.count) return { reason: "A table keeps at least one segment." };
+  if (inTable === sheet.count) return { reason: "A table needs at least one segment." };
   const change = (now) => {
     const rows = now.rows.filter((_, row) => row < first || row > last);
     const count = now.count - inTable;
@@ -130,10 +130,10 @@ export function addLinkRow(sheet) {
 export function setNumber(sheet, field, value) {
   const words = { samples: "Samples a segment", from: "Repeat from segment", to: "Repeat to segment" };
   const [least, most, why] = {
-    samples: [2, Math.floor(MOST_SAMPLES / walked(sheet).length), `a timeline has ${MOST_SAMPLES} samples at most`],
-    from: [1, sheet.to, `the repeating part ends with segment ${sheet.to}`], to: [sheet.from, sheet.count, `the part begins with segment ${sheet.from}, and the table has ${sheet.count}`],
+    samples: [2, Math.floor(MOST_SAMPLES / walked(sheet).length), `a timeline has at most ${MOST_SAMPLES} samples`],
+    from: [1, sheet.to, `the repeating part ends with segment ${sheet.to}`], to: [sheet.from, sheet.count, `the repeating part begins with segment ${sheet.from} and the table has ${counted(sheet.count, "segment")}`],
   }[field];
-  if (sheet[field] === value) return { reason: "The field has this value already." };
-  if (value < least || value > most) return { reason: `${words[field]} is ${value}; it must lie between ${least} and ${most}: ${why}.` };
+  if (sheet[field] === value) return { reason: "The field already has this value." };
+  if (value < least || value > most) return { reason: `“${words[field]}” cannot be ${value}. It must lie between ${least} and ${most}, because ${why}.` };
   return { change: (now) => ({ ...now, [field]: value, toEnd: field === "to" ? false : now.toEnd }), label: `${words[field]} ${field === "samples" ? "to " : ""}${value}`, kept: [] };
 }

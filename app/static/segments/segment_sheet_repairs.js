@@ -16,7 +16,7 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   const own = Array.from({ length: sheet.legs }, (_, one) => one).find((one) => ownRow(sheet, one) === foot);
   const words = names.join(", ");
   const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${capital(range(first, names.length))} to ${words}`;
-  const help = inserted ? `New ${range(first, names.length)}; the other feet wait meanwhile` : `Changes foot ${own + 1} only, and the link if that is necessary`;
+  const help = inserted ? `Inserts ${range(first, names.length)}, in which the other feet wait` : `Changes only foot ${own + 1}, and also the link if necessary`;
   const mended = segmentSheetOf({ ...document, segment_table: table });
   const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
   return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${lowered(label)}`, kept: [] } };
@@ -66,11 +66,11 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
     }
     note.dataset.tone = stops ? "bad" : "caution";
     const more = errors.length > 1 ? ` ${errors.length - 1} more ${errors.length > 2 ? "cells do" : "cell does"} not fit.` : "";
-    const after = stops ? "The gait keeps its last table until every segment fits." : "The gait can run one iteration, but not several.";
+    const after = stops ? "The gait uses its last valid table until all segments fit." : "The gait can walk one iteration, but not several iterations.";
     note.replaceChildren(h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
       h("div", { class: "buttons" },
         ...offers.map(({ label, help, step }) => h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } })),
-        stops && h("button", { text: "Take it back", title: "Back to the gait's table (Ctrl+Z takes one change back)", on: { click: act(() => dropSegmentDraft(store)) } })));
+        stops && h("button", { text: "Take it back", title: "Restores the last valid table. Ctrl+Z undoes only the last change", on: { click: act(() => dropSegmentDraft(store)) } })));
     request(sheet);
   }
 

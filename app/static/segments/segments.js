@@ -22,7 +22,7 @@ function numberFields(store, edits, run) {
     read: () => shownSegmentSheet(store.state)?.[key] ?? null, act: (value) => run(setNumber(shownSegmentSheet(store.state), key, value)),
   });
   return [
-    field("Samples", "Samples a segment", "samples", 200, "Samples of each segment, both its ends included"),
+    field("Samples", "Samples a segment", "samples", 200, "Number of samples of each segment, including its first and last sample"),
     field("Repeat", "Repeat from segment", "from", 999, "First segment of the part that every iteration repeats"),
     field("to", "Repeat to segment", "to", 999, "Last segment of the part that every iteration repeats"),
   ];
@@ -30,11 +30,11 @@ function numberFields(store, edits, run) {
 
 function tools(input, toggleDefinitions) {
   const button = (text, title, act) => h("button", { text, title, on: { click: act } });
-  const words = h("button", { text: "Vocabulary", title: "Named positions and segments", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleDefinitions(words) } });
+  const words = h("button", { text: "Vocabulary", title: "Shows the named positions and segments of this table", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleDefinitions(words) } });
   const bar = h("div", { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
-    button("Insert", "Adds a segment after the selected ones, in which every foot waits (key Insert; Alt+Insert adds it before them)", () => input.insert()),
-    button("Remove", "Take the selected segments away from every foot (Ctrl+Delete)", () => input.remove()),
-    button("Fill down", "The first selected segment into the ones below it (Ctrl+D)", () => input.fill()), words);
+    button("Insert", "Adds a segment in which every foot waits, after the selected segments (key Insert) or before them (Alt+Insert)", () => input.insert()),
+    button("Remove", "Removes the selected segments for all feet (Ctrl+Delete)", () => input.remove()),
+    button("Fill down", "Copies the first selected row into the selected rows below it (Ctrl+D)", () => input.fill()), words);
   oneTabStop(bar, { isToolbar: true });
   return bar;
 }
@@ -149,7 +149,7 @@ function mountSegmentDrafts(store) {
   function drop(view) {
     put(view.id, null);
     write(view.id, null);
-    toast(`The segment table of “${view.document.name}” was changed elsewhere. Your changes that did not fit yet are dropped.`);
+    toast(`The segment table of “${view.document.name}” was changed in another window. Your changes that did not fit yet were discarded.`);
   }
 
   function recall(view, base) {

@@ -80,7 +80,7 @@ def mend(film: Film) -> None:
     """The first remedy is taken."""
     page = film.at.page
     film.say("What would help is solved and tried in physics: use it")
-    expect(page.get_by_role("group", name="What would help")).to_contain_text("alks in physics")
+    expect(page.get_by_role("group", name="What would help")).to_contain_text("alks in the simulation")
     settled(film)
     use = page.get_by_role("button", name=re.compile("^Use this")).first
     film.glide(use)

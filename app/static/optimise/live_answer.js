@@ -63,7 +63,7 @@ function verdictOf(state, goTo) {
   const first = (text) => () => [h("p", { class: "first", text })];
   if (isRefusedDrawing(state)) return { title, about: plan.refusal.sentence, build: first(plan.refusal.sentence), mendable: true };
   const fall = fallOf(state);
-  return fall ? { title: "The robot tips over in the simulation", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
+  return fall ? { title: "The robot would tip over", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
 }
 
 /**

@@ -74,7 +74,7 @@ const thumbnail = (feet) => svg("svg", { class: "pattern-thumbnail", viewBox: `0
 /** The best patterns: pointing at one, or going through them by keys, shows it; a click chooses it. */
 function alternatives(problem, preview) {
   const list = h("ul", { class: "pattern-choices", role: "listbox", tabindex: "0", "aria-label": "Best patterns", data: { arrows: "" } });
-  const title = h("h3", {}, "Best patterns", h("span", { text: "each foot order once · click to choose" }));
+  const title = h("h3", {}, "Best patterns", h("span", { text: "click a pattern to choose it" }));
   const element = h("div", { hidden: true }, title, list);
   let shown = null;
   const choose = (chosen) => { preview(null); problem.set({ chosen }); };

@@ -91,7 +91,7 @@ def test_a_robot_with_other_legs_has_orders_of_its_own(page: Page) -> None:
     robot = dialog.get_by_label("Robot of the fastest gait")
     six = robot.locator("option", has_text="six").or_(robot.locator("option", has_text="Hexapod")).first
     robot.select_option(value=six.get_attribute("value"))
-    expect(dialog.get_by_text("Times are computed as for the DeltaWalker")).to_be_visible()
+    expect(dialog.get_by_text("computed with the firmware timing of the DeltaWalker")).to_be_visible()
     orders = dialog.get_by_role("group", name="Foot order").locator("label")
     expect(orders.first).to_have_attribute("title", re.compile("^Feet 1-[2-6]-[2-6]-[2-6]-[2-6]-[2-6]"))
     expect(orders.filter(has_text="Ripple").first).to_be_visible()

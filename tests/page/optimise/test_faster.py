@@ -99,7 +99,7 @@ def test_two_quick_presses_open_one_dialog_and_cancel_ends_its_search(page: Page
     expect(dialog.get_by_role("row", name="Least margin").get_by_role("cell").first).to_have_text(NUMBER)
     expect(dialog.get_by_role("button", name="Use this")).to_be_disabled()
     heads = dialog.locator("tbody > tr:first-child > th[scope=rowgroup]")
-    expect(heads).to_have_text(["One iteration in mid-walk", re.compile("^From rest to rest")])
+    expect(heads).to_have_text(["One iteration in mid-walk", re.compile("^Whole gait from rest to rest")])
     expect(dialog.locator("tbody")).to_have_count(2)
     assert len(begun) == 1
     with page.expect_event("requestfailed", lambda request: request.url.endswith("/faster")):

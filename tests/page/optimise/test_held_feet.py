@@ -54,7 +54,7 @@ def test_holding_feet_up_makes_a_motion_of_a_gait_that_ends_in_the_air(
     field = page.get_by_label("Held up at end")
     field.fill("1 9")
     field.press("Enter")
-    expect(page.get_by_text("“1 9” must name feet 1 to 6")).to_be_visible()
+    expect(page.get_by_text("“1 9” is not valid. Type feet from 1 to 6")).to_be_visible()
     field.fill("4, 1")
     field.press("Enter")
     wait_for(lambda: held(studio, made["Lifted"]) == {"start": [], "end": [1, 4]}, "held up", 60)

@@ -89,7 +89,7 @@ def test_escape_gives_up_what_is_typed_and_too_much_is_refused_beside_the_field(
     notes(page).press("Escape")
     expect(notes(page)).to_have_value(before)
     write(page, "long " * 4001)
-    expect(refusal(page)).to_contain_text("Notes have 20005 characters; at most 20000 are kept.")
+    expect(refusal(page)).to_contain_text("The notes have 20005 characters, but at most 20000 are possible.")
     expect(notes(page)).to_have_value("long " * 4001)
     assert studio.document(gait)["notes"] == before
     write(page, "short")
@@ -119,7 +119,7 @@ def test_typed_notes_survive_those_of_another_tab_which_are_one_undo_away(
     here, there = tab(context, studio), tab(context, studio)
     notes(here).fill("Mine")
     write(there, "Theirs")
-    expect(refusal(here)).to_contain_text("changed elsewhere meanwhile")
+    expect(refusal(here)).to_contain_text("changed in another window")
     expect(notes(here)).to_have_value("Mine")
     notes(here).press("Tab")
     are(studio, gait, "Mine")

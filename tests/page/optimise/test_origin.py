@@ -47,7 +47,9 @@ def test_a_trajectory_is_chosen_with_its_companion_and_optimise_replaces_it(
     files = files_of(studio, "walk", "tuesday")
     choose_files(page, files)
     expect(page.get_by_label("Gait name")).to_have_value("tuesday")
-    expect(origin(page)).to_have_text("Recorded in tuesday.csv; Optimise replaces it.")
+    expect(origin(page)).to_have_text(
+        "This motion was recorded in tuesday.csv. Optimise replaces the motion."
+    )
     expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan recorded")
     assert studio.blob("/api/gaits/tuesday/export/csv") == files[0]["buffer"]
     assert studio.blob("/api/gaits/tuesday/export/companion") == files[1]["buffer"]
@@ -55,7 +57,9 @@ def test_a_trajectory_is_chosen_with_its_companion_and_optimise_replaces_it(
     expect(page.get_by_title("The recorded motion of tuesday.csv was set aside")).to_be_visible()
     expect(origin(page)).not_to_contain_text("Plan recorded")
     page.get_by_role("button", name=re.compile("^Undo")).click()
-    expect(origin(page)).to_have_text("Recorded in tuesday.csv; Optimise replaces it.")
+    expect(origin(page)).to_have_text(
+        "This motion was recorded in tuesday.csv. Optimise replaces the motion."
+    )
 
 
 def test_a_result_is_named_until_the_gait_is_another_one(page: Page) -> None:
@@ -69,7 +73,9 @@ def test_a_result_is_named_until_the_gait_is_another_one(page: Page) -> None:
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("9")
     step.press("Enter")
-    expect(origin(page)).to_have_text(re.compile(r"for another version: out of date\.$"))
+    expect(origin(page)).to_have_text(
+        re.compile(r"for another version of this gait\. The result is out of date\.$")
+    )
     page.get_by_role("button", name=re.compile("^Undo")).click()
     expect(origin(page)).to_have_text(re.compile(r"^Optimised \d\d:\d\d in \d+ ms\.$"))
 

@@ -190,7 +190,7 @@ def test_what_is_drawn_stays_and_is_freed_again(search: Page) -> None:
     press(search, "k", "ArrowLeft", " ")
     expect(search.locator('.pattern-grid [data-fixed="drawn"]')).to_have_count(0)
     cell(search, 1, 1).click()
-    expect(search.locator("#toasts")).to_contain_text("Move the cursor to another sample")
+    expect(search.locator("#toasts")).to_contain_text("move the cursor of gait A or B")
 
 
 def test_a_conflict_is_explained_and_a_button_relaxes_it(search: Page) -> None:
@@ -199,7 +199,7 @@ def test_a_conflict_is_explained_and_a_button_relaxes_it(search: Page) -> None:
     solved(search)
     search.get_by_label("Length", exact=True).fill("6")
     solved(search, "Infeasible")
-    why = search.get_by_role("alert").filter(has_text="No pattern keeps all of this")
+    why = search.get_by_role("alert").filter(has_text="No pattern keeps all rules and fixed cells")
     expect(why).to_contain_text("only two feet are down")
     expect(search.get_by_role("button", name="Make gait")).to_have_attribute("aria-disabled", "true")
     assert findings(search, SEARCH) == []
@@ -207,7 +207,7 @@ def test_a_conflict_is_explained_and_a_button_relaxes_it(search: Page) -> None:
     solved(search)
     expect(why).to_be_hidden()
     expect(search.get_by_label("Feet down, at least, feet")).to_have_value("2")
-    search.get_by_role("button", name="Back to the thesis's numbers").first.click()
+    search.get_by_role("button", name="Use the thesis's numbers").first.click()
     expect(search.get_by_label("Feet down, at least, feet")).to_have_value("3")
 
 
@@ -304,7 +304,7 @@ def test_a_drawing_is_completed_by_one_edit(search: Page, studio: StudioProcess)
     expect(undo).to_have_attribute("title", re.compile("Undo: Complete the drawing"))
     assert studio.ask("GET", "/api/gaits/half-drawn").content["timeline"]["feet"] == done
     search_again(search)
-    nothing = re.compile("^Nothing to complete")
+    nothing = re.compile("^This pattern is the same as the drawing")
     complete = search.get_by_role("button", name="Complete the drawing")
     expect(complete).to_have_attribute("title", nothing)
     undo.click()
@@ -340,7 +340,7 @@ def test_a_long_search_shows_bound_and_gap_and_can_be_ended(search: Page) -> Non
     search.get_by_label("Length", exact=True).fill("21")
     shown = search.get_by_role("status", name="Search", exact=True)
     expect(shown).to_contain_text(
-        "best 5 moments of change · 8 foot changes · score 5008, at least 4006 · gap 20 %"
+        "best so far: 5 moments of change · 8 foot changes · score 5008, lower bound 4006 · gap 20 %"
     )
     expect(search.get_by_role("button", name="Make gait")).to_have_attribute("aria-disabled", "true")
     assert findings(search, SEARCH) == []

@@ -125,8 +125,8 @@ def test_a_paste_that_does_not_fit_is_refused_with_the_place_and_the_table_stays
         expect(page.locator("#toasts")).to_contain_text(f"{place}, segment 2: there is no segment “”")
     put_on_clipboard(page, "Wait A\tWait A\tWait A\tWait A\tWait A")
     page.keyboard.press("Control+v")
-    expect(page.locator("#toasts")).to_contain_text("2 columns behind the last foot did not fit")
-    expect(page.locator("#toasts")).to_contain_text("have this value already")
+    expect(page.locator("#toasts")).to_contain_text("2 columns after the last foot did not fit")
+    expect(page.locator("#toasts")).to_contain_text("already have this segment")
 
 
 def test_segments_are_inserted_removed_and_filled_down(page: Page, studio: StudioProcess) -> None:
@@ -142,11 +142,11 @@ def test_segments_are_inserted_removed_and_filled_down(page: Page, studio: Studi
     wait_for(lambda: table(studio, gait) == before, "removed again")
     cell(page, 3, 1).click()
     page.get_by_role("button", name="Insert", exact=True).click()
-    expect(page.locator("#toasts")).to_contain_text("foot 3 is in mid-air at Home-None after segment 3")
+    expect(page.locator("#toasts")).to_contain_text("Foot 3 is in the air at Home-None after segment 3")
     cell(page, 6, 3).click()
     cell(page, 9, 3).click(modifiers=["Shift"])
     page.keyboard.press("Control+d")
-    expect(page.locator("#toasts")).to_contain_text("have this value already")
+    expect(page.locator("#toasts")).to_contain_text("already have this segment")
     assert table(studio, gait) == before
 
 
@@ -168,7 +168,9 @@ def test_numbers_and_the_link_are_typed(page: Page, studio: StudioProcess) -> No
     repeat = page.get_by_role("spinbutton", name="Repeat to segment")
     repeat.fill("99")
     repeat.press("Enter")
-    expect(page.locator("#toasts")).to_contain_text("Repeat to segment is 99; it must lie between 4 and 11")
+    expect(page.locator("#toasts")).to_contain_text(
+        "“Repeat to segment” cannot be 99. It must lie between 4 and 11"
+    )
     assert table(studio, gait)["repeat_to"] == 10
 
 
@@ -213,11 +215,11 @@ def test_segments_and_positions_of_ones_own(page: Page, studio: StudioProcess) -
     )
     gone = words.get_by_role("button", name="Delete the segment Lift A")
     expect(gone).to_have_attribute("aria-disabled", "true")
-    expect(gone).to_have_attribute("title", re.compile("stands in 5 cells of the table"))
+    expect(gone).to_have_attribute("title", re.compile("The table uses “Lift A” in 5 cells"))
     height.fill("99")
     height.press("Enter")
     expect(page.locator("#toasts")).to_contain_text(
-        "Base cannot be 99 mm: the robot's motors reach 0.5 to 19.5 mm"
+        "“Base” cannot be 99 mm. The robot's motors reach 0.5 to 19.5 mm"
     )
     expect(height).to_have_value("6")
     words.get_by_role("button", name="Delete the segment Hover A").click()
@@ -269,7 +271,7 @@ def test_a_table_is_made_of_a_drawing_with_room_for_steps(page: Page, studio: St
     make = page.get_by_role("button", name="Make a segment table")
     expect(make).to_have_attribute("aria-disabled", "true")
     expect(make).to_have_attribute("title", re.compile("such as 6"))
-    page.get_by_role("button", name="Make one with phases of 6").click()
+    page.get_by_role("button", name="Make a table with phases of 6 samples").click()
     expect(cell(page, 3, 3)).to_have_text("Lift A")
     wait_for(lambda: studio.document(gait)["options"]["phase_knots"] == 6, "the phases are longer")
     assert table(studio, gait)["samples_per_segment"] == 3

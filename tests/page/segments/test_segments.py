@@ -163,7 +163,7 @@ def test_what_does_not_fit_yet_survives_a_reload_and_goes_when_the_table_changed
     changed["segment_table"]["definitions"]["z"]["Base"] = 0.006
     assert studio.ask("PUT", f"/api/gaits/{gait}?label=Elsewhere", changed).status == 200
     expect(cell(page, 4, 1)).to_have_text("Wait A")
-    expect(page.locator("#toasts")).to_contain_text("“Reload” was changed elsewhere")
+    expect(page.locator("#toasts")).to_contain_text("“Reload” was changed in another window")
     expect(note(page)).to_be_hidden()
 
 
@@ -195,7 +195,7 @@ def test_what_does_not_fit_yet_goes_with_its_table(page: Page, studio: StudioPro
     expect(note(page)).to_be_visible()
     drawn = page.get_by_role("grid", name="Footfall timeline")
     drawn.get_by_role("gridcell", name="foot 2, sample 21: swing", exact=True).click()
-    expect(page.locator("#toasts")).to_contain_text("“No table” was changed elsewhere")
+    expect(page.locator("#toasts")).to_contain_text("“No table” was changed in another window")
     assert table(studio, gait) is None
     page.get_by_role("button", name=re.compile("^Undo")).click()
     expect(cell(page, 4, 1)).to_have_text("Wait A")

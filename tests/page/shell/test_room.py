@@ -40,9 +40,9 @@ def test_reason_and_ways_out_are_seen_without_scrolling(page: Page, size: tuple[
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("30")
     step.press("Enter")
-    why = page.get_by_role("region", name="Why it is infeasible")
+    why = page.get_by_role("region", name="Why the gait is infeasible")
     first = why.get_by_role("group", name="What would help").get_by_role("listitem").first
-    expect(first).to_contain_text("Walks in physics.", timeout=30_000)
+    expect(first).to_contain_text("Walks in the simulation.", timeout=30_000)
     page.locator("#sections").evaluate("panel => { panel.scrollTop = 0; }")
     panel = page.locator("#sections").bounding_box()
     assert panel is not None
@@ -60,7 +60,7 @@ def test_what_is_worked_on_keeps_its_place_and_the_verdict_stays_in_sight(page: 
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("30")
     step.press("Enter")
-    why = page.get_by_role("region", name="Why it is infeasible")
+    why = page.get_by_role("region", name="Why the gait is infeasible")
     expect(why.get_by_role("group", name="What would help").get_by_role("listitem").first).to_be_visible()
     expect(step).to_be_in_viewport(ratio=1)
     expect(why.get_by_role("heading", name="No motion for this drawing")).to_be_in_viewport(ratio=1)

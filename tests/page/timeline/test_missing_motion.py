@@ -165,7 +165,7 @@ def test_two_feet_in_the_air_are_hatched_outlined_and_flagged_while_the_hand_dra
 def test_why_a_drawing_is_refused_stands_in_the_inspector_alone(page: Page) -> None:
     choose(page, "Amble 10 mm")
     page.get_by_role("gridcell", name="foot 2, sample 45: stance", exact=True).click()
-    expect(page.get_by_role("region", name="Why it is infeasible")).to_contain_text("No motion")
+    expect(page.get_by_role("region", name="Why the gait is infeasible")).to_contain_text("No motion")
     expect(page.locator("#edit-note")).to_be_empty()
     page.get_by_role("button", name=re.compile("^Undo")).click()
-    expect(page.get_by_role("region", name="Why it is infeasible")).to_be_hidden()
+    expect(page.get_by_role("region", name="Why the gait is infeasible")).to_be_hidden()

@@ -40,11 +40,9 @@ def test_an_empty_list_offers_an_example_that_is_marked_and_never_learned_from(
         expect(panel.get_by_role("table", name="Gaits compared")).to_have_count(0)
         panel.get_by_role("button", name="Learn from trials").click()
         expect(panel.get_by_role("checkbox", name=re.compile("^Example"))).to_be_disabled()
-        expect(panel.get_by_text("nothing is learned from it").first).to_be_visible()
+        expect(panel.get_by_text("Learning uses only trials of a real robot").first).to_be_visible()
         needs = panel.get_by_role("status", name="What Learn needs")
-        expect(needs).to_contain_text(
-            "There is no trial to learn from yet; 3 different gaits or steps are needed"
-        )
+        expect(needs).to_contain_text("There is no trial to learn from yet. Learning needs at least 3 gaits")
         panel.get_by_role("button", name="All trials").click()
         row.get_by_role("button").click()
         panel.get_by_role("button", name="Delete", exact=True).click()

@@ -10,9 +10,11 @@ import { robotOptions, robots } from "../shell/robots.js";
 import { fastestRequest } from "./fastest_request.js";
 import { searchPart } from "./fastest_search.js";
 
-const PURPOSE = "Makes the gait that walks or turns fastest on the robot. The number below a value shows how fast the gait "
+const PURPOSE = "Makes the gait that walks or turns fastest on the robot. "
+  + "The number below a value shows how fast the gait "
   + "would be with this value. You can still change all values after you have created the gait.";
-const OTHER_LAW = "The timing of this robot's firmware is not known. All times are computed with the firmware timing of the DeltaWalker.";
+const OTHER_LAW = "The timing of this robot's firmware is not known. "
+  + "All times are computed with the firmware timing of the DeltaWalker.";
 const MOST_CYCLES = 20;
 
 function addStyles() {
@@ -49,7 +51,8 @@ function headFields(store, list, request) {
   return {
     elements: [h("div", { class: "fast-head" }, labelled("Robot", robot, "The robot that the gait is made for"),
       labelled("Name", name, "The name of the new gait in the list", nameRefusal),
-      labelled("Cycles", cycles, "Number of cycles of the gait, which starts in the standard stance and ends at rest", cyclesRefusal)), law],
+      labelled("Cycles", cycles, "Number of cycles of the gait, which starts in the standard stance and "
+        + "ends at rest", cyclesRefusal)), law],
     /** Follows the request, but for a name that a person has typed. */
     follow({ robot: shown }, title) {
       robot.value = shown;

@@ -7,7 +7,7 @@ import { choiceText, priceOf, speedText } from "./fastest_words.js";
 const FRAME = { width: 620, height: 210, left: 44, right: 12, top: 12, bottom: 34 };
 const SIZE = 5;
 const DEGREES = 180 / Math.PI;
-const CAPTION = "Large marks are the best gaits: each faster gait has a smaller stability margin or a longer stop bound. "
+const CAPTION = "Large marks are the Pareto-optimal gaits for speed, stability margin and stop bound. "
   + "Small dots are the other tried gaits. Choose a large mark to use its values.";
 
 /** Outlines of the marks, by the place of their stop bound. */
@@ -88,7 +88,7 @@ export function frontPlot(front, tried, nameOf, choose) {
     });
   });
   const unit = front.some((one) => priceOf(one).on_the_spot) ? "°/s" : "mm/s";
-  const drawing = svg("svg", { viewBox: `0 0 ${FRAME.width} ${FRAME.height}`, role: "listbox", "aria-label": "Best gaits by speed, stability margin and stop bound" }, ...axes(toX, toY, most, unit), ...dots, ...marks);
+  const drawing = svg("svg", { viewBox: `0 0 ${FRAME.width} ${FRAME.height}`, role: "listbox", "aria-label": "Pareto front of speed, stability margin and stop bound" }, ...axes(toX, toY, most, unit), ...dots, ...marks);
   return h("figure", { class: "fast-front" }, drawing, legend(bounds),
     h("figcaption", { class: "quiet", text: CAPTION }));
 }

@@ -38,7 +38,8 @@ export function fastestRequest(changed) {
   function showOutcome() {
     const [known, count] = rows.counts();
     setText(outcome, outcomeText(rows.chosen(request), title(), Boolean(looking)));
-    setText(state, looking && known < count ? `The studio is computing the speeds: ${known} of ${count} are ready.` : "");
+    setText(state, looking && known < count ? `The studio is computing the speeds: `
+      + `${known} of ${count} are ready.` : "");
   }
 
   function refuse(sentence) {

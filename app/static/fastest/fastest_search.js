@@ -71,7 +71,8 @@ function listed({ tried = [], request, front, state }) {
 function sentenceOf(job) {
   const { state, sentence, tried = [], result } = job;
   const best = tried.reduce((fastest, one) => (paceOf(one) > paceOf(fastest) ? one : fastest), { speed: null });
-  const fastest = best.speed === null ? "" : ` Fastest gait${jobIsOn(job) ? " so far" : ""}: ${speedText(priceOf(best))}.`;
+  const fastest = best.speed === null ? "" : ` Fastest gait${jobIsOn(job) ? " so far" : ""}: `
+    + `${speedText(priceOf(best))}.`;
   if (state === "cancelling") return sentence;
   if (jobIsOn(job)) return `${sentence}${fastest}`;
   if (state !== "done") return `The last search: ${sentence}${fastest}`;
@@ -123,7 +124,8 @@ export function searchPart(store, { request, nameOf, use }) {
     const before = job?.id;
     job = shownJob(state, request().robot, picked);
     const isOn = Boolean(job) && jobIsOn(job);
-    setAllowed(start, isOn ? "A search is running. Wait until the search ends, or cancel the search." : null, "Tries every foot order and direction, with the other values as chosen above");
+    setAllowed(start, isOn ? "A search is running. Wait until the search ends, or cancel the "
+      + "search." : null, "Tries every foot order and direction, with the other values as chosen above");
     // What has the focus is not taken away with it.
     if (!isOn && document.activeElement === cancel) start.focus();
     progress.hidden = !isOn;

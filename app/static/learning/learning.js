@@ -11,10 +11,12 @@ import { learnedResult } from "./learning_result.js";
 const POLL_MS = 1000;
 /** Longest wait between two polls of a studio that does not answer. */
 const MOST_POLL_MS = 30000;
-const PURPOSE = "Learning finds physics parameters that no data sheet gives, such as friction, backlash and centre of mass. "
-  + "It compares simulated walks with the walks of the real robot. "
-  + "Simulations use the result only after you keep it as a set and choose the set in Simulate.";
-const TABLE_HELP = "The table has one row for each trial, like trajectory_averages.csv (rows TrajAa, TrajAb, …). "
+const PURPOSE = "Finds physics parameters that no data sheet gives, such as friction, backlash and centre "
+  + "of mass. "
+  + "For this, learning compares simulated walks with walks of the real robot. "
+  + "To use the result in simulations, keep it as a set, then choose the set in Simulate.";
+const TABLE_HELP = "The table has one row for each trial, like trajectory_averages.csv (rows TrajAa, "
+  + "TrajAb, …). "
   + "The trajectories are the motions that the robot walked in these trials, "
   + "such as walk_a.csv, ambl_b.csv, mtri_c.csv and adjs_d.csv.";
 const OPEN = new Set(["running", "cancelling"]);

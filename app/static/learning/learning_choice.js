@@ -6,14 +6,16 @@ import { toast } from "../lib/toasts.js";
 
 const LEAST_GAITS = 3;
 const TEST = "As a test, learning predicts each gait from the other gaits.";
-const WHERE = "Each trial needs its run or gait for comparison. Choose the run or gait when you add the trial.";
+const WHERE = "Each trial must name the run or gait that the robot walked. "
+  + "Choose the run or gait when you add the trial.";
 
 const gaitOf = ({ gait_name: gait, name, expected_cm: wanted, iterations }) => `${gait || name}, ${fixed(wanted / iterations)} cm × ${iterations}`;
 
 /** Why nothing can be learned from a trial; null where it can. */
 function whyNot({ is_example: isExample, gait, run }) {
   if (isExample) return "This example was made by simulation. Learning uses only trials of a real robot.";
-  return gait || run ? null : "The studio does not know which waypoints were sent to the robot. Add the trial again and choose its run or gait.";
+  return gait || run ? null : "The studio does not know which waypoints were sent to the robot. "
+    + "Add the trial again and choose its run or gait.";
 }
 
 function trialLine(trial, changed) {
@@ -28,7 +30,8 @@ function missingText(trials, gaits) {
   if (gaits >= LEAST_GAITS) return null;
   const ticked = gaits ? `The ticked trials show ${counted(gaits, "gait")}` : "No trial is ticked";
   const have = trials.some((trial) => !whyNot(trial)) ? ticked : "There is no trial to learn from yet";
-  return `${have}. Learning needs at least ${LEAST_GAITS} gaits that differ in name or step length. ${TEST} ${WHERE}`;
+  return `${have}. Learning needs at least ${LEAST_GAITS} gaits that differ in name or step length. `
+    + `${TEST} ${WHERE}`;
 }
 
 /**
@@ -46,7 +49,8 @@ export function trialChoice(trials, start) {
   function refresh() {
     const gaits = new Set(chosen().map(gaitOf)).size;
     const missing = missingText(trials, gaits);
-    setAllowed(press, missing, "Simulates every gait about forty times. You can continue to work meanwhile");
+    setAllowed(press, missing, "Simulates every gait about forty times. "
+      + "You can continue to work during the simulations");
     setText(needs, missing ?? "");
     needs.hidden = !missing;
   }

@@ -8,14 +8,16 @@ import { gridPlaces, gridStep } from "../trials/trial_plot.js";
 const UNKNOWN = "not identifiable";
 const FITTED = "Fitted values, with one standard deviation below and above. "
   + "A parameter that the trials cannot determine keeps its usual value";
-const ERRORS = "Mean absolute error over all gaits. “Left out” means that the predicted gait was not used for learning";
+const ERRORS = "Mean absolute error over all gaits. “Left out” means that the predicted gait was not used "
+  + "for learning";
 const figure = (value) => (value === 0 ? "0" : compact(value));
 const withUnit = (value, unit) => `${figure(value)} ${unit}`.trim();
 
 const table = (caption, title, head, rows) => captionedTable({ class: "run-table learned-table", title }, caption, head, rows);
 
 function parameterRow({ title, unit, default: usual, fitted, low, high, is_identifiable: isIdentifiable, effect, left }) {
-  const help = "Between its lowest and its highest value, this parameter changes the distance or angle of a gait by up to "
+  const help = "Between its lowest and its highest value, this parameter changes the distance or angle of "
+    + "a gait by up to "
     + `${fixed(effect)} standard deviations of one trial. `
     + `After learning, ${fixed(left * 100, 0)} % of the parameter's uncertainty is left`;
   return h("tr", { title: help }, h("th", { scope: "row", text: title }), h("td", { text: withUnit(usual, unit) }),
@@ -25,13 +27,14 @@ function parameterRow({ title, unit, default: usual, fitted, low, high, is_ident
 const parameterTable = ({ parameters }) => table("Parameters", FITTED, ["", "usual", "fitted"], parameters.map(parameterRow));
 
 const predictionTable = ({ foretold: predicted }) => table("Error of the predicted distance and angle", ERRORS, ["", "cm", "°"],
-  predicted.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `If the robot falls in a simulation, the whole distance of this gait counts as error. The mean angle is over the other gaits (${angles})` } : {},
+  predicted.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `If the robot falls in a simulation, the whole distance of this gait counts as error. The mean angle uses only the other gaits (${angles})` } : {},
     h("th", { scope: "row", text: falls ? `${title} (falls: ${falls}, angles: ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
 
 function gaitTable({ gaits, foretold: predicted }) {
   const distances = (name) => predicted.find((one) => one.name === name).distances_cm;
   const columns = [gaits.map((gait) => gait.distance_cm), distances("as planned"), distances("default"), distances("left out")];
-  return table("Gaits, cm", "Distance as in the published tables, from the largest excursions of the feet", ["", "real", "plan", "usual", "left out"],
+  return table("Gaits, cm", "Distance as in the published tables, from the largest excursions of "
+    + "the feet", ["", "real", "plan", "usual", "left out"],
     gaits.map(({ name }, place) => h("tr", {}, h("th", { scope: "row", text: name }), ...columns.map((values) => h("td", { text: fixed(values[place]) })))));
 }
 
@@ -46,7 +49,8 @@ function keeping(job, keep) {
   if (!job.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials cannot determine any parameter, so there is no set to keep. Add trials of other gaits, or more trials of each gait." });
   const name = h("input", { "aria-label": "Name of the set", placeholder: "Name, for example “lab floor”", maxlength: "80", required: true });
   return h("form", { class: "learned-keep", on: { submit: (event) => { event.preventDefault(); keep(job, name.value); } } }, name,
-    h("button", { class: "primary", text: "Keep as a set", title: "Keeps the fitted values under this name. Simulations use the values after you choose the set in Simulate under Physics" }));
+    h("button", { class: "primary", text: "Keep as a set", title: "Keeps the fitted values under this "
+      + "name. Simulations use the values after you choose the set in Simulate under Physics" }));
 }
 
 /**
@@ -105,5 +109,6 @@ function predictionPlot({ gaits, foretold: predicted }) {
       svg("line", { class: "right-line", x1: toX(low), y1: toY(low), x2: toX(high), y2: toY(high) }),
       label((SIZE.left + SIZE.width) / 2, SIZE.height - 4, "measured, cm"),
       ...drawn.flatMap(({ prediction, mark }) => measured.map((value, place) => mark(toX(value), toY(prediction.distances_cm[place]))))),
-    h("figcaption", { class: "quiet" }, h("span", { text: "Horizontal: measured distance, cm. Vertical: predicted distance, cm. On the line, both distances are equal." }), legend(predicted)));
+    h("figcaption", { class: "quiet" }, h("span", { text: "Horizontal: measured distance, cm. Vertical: "
+      + "predicted distance, cm. On the line, both distances are equal." }), legend(predicted)));
 }

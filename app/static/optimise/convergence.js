@@ -73,11 +73,14 @@ export function mountConvergence(store, section) {
   const frame = h("div", { role: "img" });
   const last = { objective: h("span"), primal: h("span") };
   const key = h("div", { class: "curve-key" },
-    h("span", { title: "Value of the cost that the optimiser minimises. You choose the cost under More" }, h("i"), "objective ", last.objective),
-    h("span", { class: "primal", title: "Largest violation of a limit, in the solver's scaled units. The value is 0 when all limits are kept" }, h("i"), "violation ", last.primal));
+    h("span", { title: "Value of the cost that the optimiser minimises. "
+      + "You choose the cost under More" }, h("i"), "objective ", last.objective),
+    h("span", { class: "primal", title: "Largest violation of a limit, in the solver's scaled units. "
+      + "The value is 0 when all limits are kept" }, h("i"), "violation ", last.primal));
   const line = h("p", { class: "why" });
   const plot = h("div", { class: "curve" }, frame, key);
-  section.append(h("h3", { title: "Objective and violation at each iteration of the optimiser, in the last optimisation" }, "Convergence", state), plot, line);
+  section.append(h("h3", { title: "Objective and violation at each iteration of the optimiser during the "
+    + "last optimisation" }, "Convergence", state), plot, line);
   let drawn = null;
 
   store.watch(({ jobs, shownJob, selected, iterate }) => [jobs, shownJob, selected, iterate], (now) => {

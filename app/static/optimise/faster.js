@@ -11,11 +11,14 @@ import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { counted, fixed, mm } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const HELP = "Makes a gait with the same foot order and step, timed for the robot's firmware. Compares both gaits first";
-const FREELY = "Changes this gait into a drawn gait with the same foot order and step. You can then paint its timeline";
+const HELP = "Makes a gait with the same foot order and step, timed for the robot's firmware. "
+  + "First shows a comparison of both gaits";
+const FREELY = "Changes this gait into a drawn gait with the same foot order and step. "
+  + "You can then paint the timeline";
 const BROKEN_OFF = "The search stopped early. Try again when the studio answers.";
-const MORE = "The gain is larger with more iterations, a longer step or a longer stop bound.";
-const FEW = "This gait has fewer than three iterations. Its values in mid-walk (column “Now”) are the mean over all iterations.";
+const MORE = "The gain in speed is larger with more iterations, a longer step or a longer stop bound.";
+const FEW = "This gait has fewer than three iterations. Its values in mid-walk (column “Now”) are the mean "
+  + "over all iterations.";
 const USE = "Replaces the drawn gait with the gait for the robot's clock. Undo restores the drawn gait";
 const NEW = "Keeps the drawn gait, and saves the gait for the robot's clock as a new gait";
 const ABOUT = "is compared with a gait for the robot's clock, which is timed for the robot's firmware. "
@@ -158,7 +161,7 @@ function isWorse({ state, now, faster }, document) {
 /** The dialog's buttons; `take` gives what a press does. */
 function buttons(close, take) {
   const use = h("button", { type: "submit", class: "primary", text: "Use this", title: USE });
-  const asNew = h("button", { type: "button", text: "As a new gait", title: NEW });
+  const asNew = h("button", { type: "button", text: "Save as a new gait", title: NEW });
   asNew.addEventListener("click", () => take("new"));
   const cancel = h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } });
   const allow = (isAllowed, isBetter) => {

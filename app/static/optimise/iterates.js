@@ -55,7 +55,8 @@ export function mountIterates(store, section) {
     row.toggleAttribute("data-on", Boolean(state.iterate));
     const lost = job && !jobIsOn(job) && count === 0 && job.progress?.length > 1;
     gone.hidden = !lost;
-    setText(gone, lost ? "The motions at the optimiser's iterations are no longer stored. Optimise again to see these motions." : "");
+    setText(gone, lost ? "The motions at the optimiser's iterations are no longer stored. "
+      + "Optimise again to see these motions." : "");
   });
   store.watch(({ selected, view, gesture, pending, shownJob }) => [selected, view?.revision, gesture, pending.length, shownJob], leave);
   return { leave: () => { const on = Boolean(store.state.iterate); leave(); return on; } };

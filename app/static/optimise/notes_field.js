@@ -5,12 +5,14 @@ import { historyAction } from "../state/fields.js";
 import { refusalOf } from "../lib/field_error.js";
 
 const MOST = 20_000;
-const MEANWHILE = "The notes were changed in another window while you were typing. To keep your text, leave the field. "
+const MEANWHILE = "The notes were changed in another window while you were typing. "
+  + "To keep your text, leave the field. "
   + "To take the other text, press Escape.";
 
 function refusedNotes(text) {
   const { length } = [...text];
-  return length > MOST ? `The notes have ${length} characters, but at most ${MOST} are possible. Shorten the notes, or press Escape to restore the old notes.` : null;
+  return length > MOST ? `The notes have ${length} characters, but at most ${MOST} are possible. `
+    + `Shorten the notes, or press Escape to restore the old notes.` : null;
 }
 
 /** The text of the field and of the document: `write` shows one, `isTyped` returns whether they differ. */
@@ -49,7 +51,8 @@ function mountNoteKeys(area, edits, { text, keep, giveUp }) {
 export function notesField(store, edits) {
   const area = h("textarea", { "aria-label": "Notes", rows: "2", placeholder: "What the gait is for, what you observed" });
   const refusal = refusalOf(area);
-  const element = h("label", { class: "field notes-field", title: "Your own text about this gait. The notes do not change the motion" }, h("span", { class: "name", text: "Notes" }), area, refusal.element);
+  const element = h("label", { class: "field notes-field", title: "Your own text about this gait. "
+    + "The notes do not change the motion" }, h("span", { class: "name", text: "Notes" }), area, refusal.element);
   const text = shownText(area, refusal);
   let known = "";
 

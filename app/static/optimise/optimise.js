@@ -23,7 +23,8 @@ const POSES = "After each edit, the studio searches for the fastest motion. "
   + "Meanwhile you see the last motion, adapted to the new values.";
 const nameOf = (element) => element.querySelector("[aria-label]").getAttribute("aria-label");
 
-const TIERS = "The plan is updated after each edit. Optimise also improves the footholds and the body height.";
+const TIERS = "The plan is updated after each edit. Optimise also improves the footholds and the body "
+  + "height.";
 
 function exactButton(store) {
   const button = h("button", { class: "wide", text: "Optimise" });
@@ -33,7 +34,8 @@ function exactButton(store) {
   }), (why) => toast(why));
   store.watch(({ jobs, view, pending, selected }) => [jobs, view, pending.length, selected], (state) => {
     const busy = state.jobs.some((job) => job.gait === state.selected && job.kind === "optimise" && jobIsOn(job));
-    const why = !state.view ? "No gait is selected." : busy ? "This gait is being optimised. Cancel the job, or wait until the job ends." : null;
+    const why = !state.view ? "No gait is selected." : busy ? "This gait is being optimised. "
+      + "Cancel the job, or wait until the job ends." : null;
     setAllowed(button, why ?? (state.view.document.poses ? POSES : null) ?? (state.pending.length ? "The studio is still saving your last edit." : null), TIERS);
   });
   return button;
@@ -111,21 +113,26 @@ function noteLine(store) {
 const QUIET = { text: "", title: null, tone: null };
 
 function ofFile({ file, form, assumed }) {
-  const text = form === "waypoints" ? `This motion was read from the waypoints in ${file}. Optimise replaces the motion.` : `This motion was recorded in ${file}. Optimise replaces the motion.`;
+  const text = form === "waypoints" ? `This motion was read from the waypoints in ${file}. `
+    + `Optimise replaces the motion.` : `This motion was recorded in ${file}. Optimise replaces the motion.`;
   return { text, title: assumed.join("\n") || null, tone: null };
 }
 
 function details({ solver, method, program, motion, trajectory }) {
-  return `Solver ${solver}, method ${method}, Footfall Studio ${program}\nHash of the problem ${shortHash(motion)}, hash of the result ${shortHash(trajectory)}`;
+  return `Solver ${solver}, method ${method}, Footfall Studio ${program}\nHash of the problem `
+    + `${shortHash(motion)}, hash of the result ${shortHash(trajectory)}`;
 }
 
 function ofResult(provenance, source, isEdited) {
   const { made, seconds, matches, at_hand: isHere } = provenance;
   const [when, title] = [clockTime(made), details(provenance)];
-  if (!matches || isEdited) return { text: `Optimised ${when}, but for another version of this gait. The result is out of date.`, title, tone: "caution" };
+  if (!matches || isEdited) return { text: `Optimised ${when}, but for another version of this gait. `
+    + `The result is out of date.`, title, tone: "caution" };
   if (isHere) return { text: `Optimised ${when} in ${fixed(seconds * 1000, 0)} ms.`, title, tone: null };
-  if (source === "optimised") return { text: `Optimised ${when} in another studio. This studio computed the shown motion again.`, title, tone: null };
-  return { text: `Optimised ${when} in another studio. This studio does not have the result. Press Optimise to compute it again.`, title, tone: "caution" };
+  if (source === "optimised") return { text: `Optimised ${when} in another studio. `
+    + `This studio computed the shown motion again.`, title, tone: null };
+  return { text: `Optimised ${when} in another studio. This studio does not have the result. `
+    + `Press Optimise to compute the result again.`, title, tone: "caution" };
 }
 
 function words({ view, pending, gesture }) {

@@ -37,8 +37,10 @@ const ITERATIONS = { label: "Iterations", name: "Iterations", unit: "", min: 1, 
 
 /** The step once more, by its shares along the axes. */
 const SHARES = [
-  { label: "Step x", name: "Step x", help: "Component of the step along the x axis of the 3D preview", ...axis(0) },
-  { label: "Step y", name: "Step y", help: "Component of the step along the y axis of the 3D preview", ...axis(1) },
+  { label: "Step x", name: "Step x", help: "Component of the step along the x axis of the 3D "
+    + "preview", ...axis(0) },
+  { label: "Step y", name: "Step y", help: "Component of the step along the y axis of the 3D "
+    + "preview", ...axis(1) },
 ];
 
 const SAMPLE_TIME = {
@@ -50,19 +52,23 @@ const LIMITS = [
   { label: "Body height", name: "Body height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2,
     help: "Height of the body at the start: from the standing feet up to the plane of the motors", ...option("plane_height", 1000) },
   { label: "End height", name: "End height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2, empty: "same", fallback: 53.5,
-    help: "Height of the body at the end. Leave empty to keep the body height of the start", ...option("end_plane_height", 1000) },
+    help: "Height of the body at the end. Leave the field empty to keep the start height", ...option("end_plane_height", 1000) },
   { label: "Clearance", name: "Clearance", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
     limit: "clearance", fromSI: (metres) => metres * 1000, help: "Each foot rises at least this high in its swing", ...option("clearance", 1000) },
   { label: "Stability margin", name: "Stability margin", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
     limit: "margin", fromSI: (metres) => metres * 1000,
-    help: "Least distance between the centre of pressure and the edge of the support polygon (the area between the standing feet)", ...option("margin", 1000) },
+    help: "Least distance between the centre of pressure and the edge of the support polygon (the area "
+      + "between the standing feet)", ...option("margin", 1000) },
 ];
 
 const CHOICES = [
   { label: "Reach", name: "Workspace", options: [["stroke", "stroke"], ["cylinder", "cylinder"]],
-    help: "Where a foot can be (workspace). stroke: all places that the motors reach. cylinder: the simpler, smaller space of the published paper", ...word("workspace") },
+    help: "Where a foot can be (workspace). With “stroke”, a foot can be at every place that the motors "
+      + "reach. With “cylinder”, it stays in the simpler, smaller space of the published paper", ...word("workspace") },
   { label: "Cost", name: "Cost", options: [["gentle", "gentle"], ["goal", "goal"], ["goal+effort", "effort"]],
-    help: "What the optimiser minimises. gentle: the speeds, so that the body moves evenly. goal: the distance to the goal at every sample. effort: this distance and the forces of the legs", ...word("cost") },
+    help: "What the optimiser minimises. With “gentle”, it minimises the speeds, so that the body moves "
+      + "evenly. With “goal”, it minimises the distance to the goal at every sample. "
+      + "With “effort”, it also minimises the forces of the legs", ...word("cost") },
 ];
 
 const MORE_NUMBERS = [
@@ -85,7 +91,8 @@ const limit = (name) => ({
 /** What only a gait for the robot's clock has. */
 const POSE_CHOICES = [
   { label: "Step length", name: "Step length", options: [["true", "fastest"], ["false", "as set"]],
-    help: "fastest: the search chooses the step, or the turn on the spot, of the fastest gait. as set: the search uses Step and Turn above",
+    help: "With “fastest”, the search chooses the step or the turn of the fastest gait. "
+      + "With “as set”, the search uses Step and Turn above",
     read: ({ poses }) => String(poses?.free_step ?? false), write: (document, value) => ({ ...document, poses: { ...document.poses, free_step: value === "true" } }) },
 ];
 const DEGREES = 180 / Math.PI;
@@ -100,7 +107,7 @@ const POSE_NUMBERS = [
 const WITH_OVERLAP = 5;
 const OVERLAP = {
   label: "Swings", name: "Overlap", options: [["false", "apart"], ["true", "overlapping"]],
-  help: "overlapping: in one move, a foot is lifted while the foot before it is lowered. "
+  help: "With “overlapping”, a foot is lifted in the same move in which the foot before it is lowered. "
     + "A cycle then has fewer moves and is faster, but fewer feet carry the body in these moves",
   read: ({ poses }) => String(poses?.overlap ?? false),
   write: (document, value) => ({ ...document, poses: { ...document.poses, overlap: value === "true" } }),
@@ -119,19 +126,25 @@ export function hasField({ poses, timeline }, name) {
 
 const MORE_CHOICES = [
   { label: "Orientation", name: "Orientation", options: [["FB", "FB"], ["FBS", "FBS"]],
-    help: "Forward direction of the gait. FB: the diagonal between x and y, with feet in front and at the back. FBS: the x axis, with feet in front, at the sides and at the back. The names of the feet and Mirror change with the orientation. The step does not change",
+    help: "Forward direction of the gait. FB: the diagonal between x and y, with feet in front and at the "
+      + "back. FBS: the x axis, with feet in front, at the sides and at the back. "
+      + "The orientation also changes the names of the feet and the effect of Mirror. "
+      + "The step of the gait does not change",
     read: ({ orientation }) => orientation, write: (document, value) => ({ ...document, orientation: value }) },
   { label: "Direction", name: "Direction", options: [1, 2, 3, 4].map((value) => [value, String(value)]),
-    help: "Turns the whole gait in quarter turns. 1 is the gait as drawn", ...property("direction") },
+    help: "Turns the whole gait in quarter turns. Direction 1 is the gait as drawn", ...property("direction") },
   { label: "Ends", name: "Boundary", options: [["rest", "at rest"], ["periodic", "cycle"]],
-    help: "Start and end of the gait (boundary). at rest: the robot stands still at both. cycle: the end is like the start, so that the gait can repeat", ...word("boundary") },
+    help: "Start and end of the gait (boundary). With “at rest”, the robot stands still at the start and "
+      + "the end. With “cycle”, the end is like the start, so that the gait can repeat", ...word("boundary") },
   { label: "Turning", name: "Turning", options: [["steady", "steady"], ["return", "at the end"]],
-    help: "When the body turns. steady: during the whole gait. at the end: after each iteration, while all feet stand", ...word("turning") },
+    help: "When the body turns. With “steady”, the body turns during the whole gait. "
+      + "With “at the end”, the body turns after each iteration, while all feet stand", ...word("turning") },
 ];
 
 function orderField(store, edits) {
   return textField(store, {
-    label: "Foot order", name: "Foot order", help: "The order in which the feet step. If you change the order, the timeline is drawn again",
+    label: "Foot order", name: "Foot order", help: "The order in which the feet step. "
+      + "If you change the order, the timeline is drawn again",
     read: (document) => drawnOrder(document).join(" "),
     commit(text) {
       const document = edits.shown();
@@ -139,7 +152,8 @@ function orderField(store, edits) {
       const digits = text.split(/[^0-9]+/).filter(Boolean);
       const wanted = (digits.length === 1 && digits[0].length === order.length ? [...digits[0]] : digits).map(Number);
       if ([...wanted].sort((a, b) => a - b).join() !== [...order].sort((a, b) => a - b).join()) {
-        return `The foot order “${text}” must contain each of the ${order.length} feet exactly once. Type for example ${order.join(" ")}.`;
+        return `The foot order “${text}” must contain each of the ${order.length} feet exactly once. `
+          + `Type for example ${order.join(" ")}.`;
       }
       if (wanted.join() !== order.join()) edits.redraw({ order: wanted, phase_knots: options.phase_knots, closing_knots: options.closing_knots });
       return null;
@@ -155,9 +169,11 @@ function phaseFields(store, edits) {
   const knots = { unit: "samples", step: 1, decimals: 0, whole: true, fallback: 5, unsaid: "as drawn" };
   const asDrawn = (name) => ({ read: (document) => (isDrawn(document) ? document.options[name] : null) });
   return [
-    { label: "Phase length", name: "Phase length", min: 2, max: 50, help: "Number of samples of each swing and of each stance phase. If you change the number, the timeline is drawn again",
+    { label: "Phase length", name: "Phase length", min: 2, max: 50, help: "Number of samples of each swing "
+      + "and of each stance phase. If you change the number, the timeline is drawn again",
       ...knots, ...asDrawn("phase_knots"), act: (value) => redraw({ phase_knots: value }) },
-    { label: "Final stance", name: "Final stance", min: 0, max: 100, help: "Number of samples with all feet down after the last swing. If you change the number, the timeline is drawn again",
+    { label: "Final stance", name: "Final stance", min: 0, max: 100, help: "Number of samples with all "
+      + "feet down after the last swing. If you change the number, the timeline is drawn again",
       ...knots, ...asDrawn("closing_knots"), act: (value) => redraw({ closing_knots: value }) },
   ].map((field) => numberField(store, edits, field));
 }
@@ -185,14 +201,16 @@ export function optimiserOptions(store, edits, makeNew) {
 
 function refusal(feet, text, legs) {
   const odd = feet.find((foot, at) => foot < 1 || foot > legs || feet.indexOf(foot) !== at);
-  if (odd !== undefined) return `“${text}” is not valid. Type feet from 1 to ${legs}, each foot at most once. Leave the field empty for no foot.`;
+  if (odd !== undefined) return `“${text}” is not valid. Type feet from 1 to ${legs}, each foot at most `
+    + `once. Leave the field empty for no foot.`;
   return feet.length >= legs ? "The robot falls when all feet are up. Keep at least three feet down." : null;
 }
 
 function heldField(store, edits, end, words) {
   return textField(store, {
     label: words, name: `Held ${words.toLowerCase()}`,
-    help: `Feet that are held up at the ${end === "start" ? "first" : "last"} sample. These feet must swing at this sample on the timeline. Leave empty for no foot`,
+    help: `Feet that are held up at the ${end === "start" ? "first" : "last"} sample. `
+      + `These feet must swing at this sample on the timeline. Leave empty for no foot`,
     read: (document) => heldOf(document)[end].join(" "),
     commit(text) {
       const shown = edits.shown();

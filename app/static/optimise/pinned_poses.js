@@ -4,9 +4,11 @@ import { pinWords, pinnedOf, withoutPinned } from "../document/pinned_poses.js";
 import { h, setText } from "../lib/dom.js";
 import { shownDocument } from "../state/store.js";
 
-const HOW = "Pause at a pose, and drag its mark in the 3D preview or move the mark with the arrow keys. "
+const HOW = "Pause at a pose. Then drag the mark of the pose in the 3D preview, or move the mark with the "
+  + "arrow keys. "
   + "The search keeps the body at this place and computes all other poses again.";
-const NOT_HERE = "Poses cannot be pinned here, because this gait turns, sways, or has moves that the stop bound cuts.";
+const NOT_HERE = "Poses cannot be pinned here, because this gait turns, sways, or has moves that the stop "
+  + "bound cuts.";
 
 /** The list, hidden for every other gait. */
 export function pinnedPoses(store, edits, goTo) {

@@ -47,7 +47,8 @@ function orderOf(labels, shown, isHeld) {
 function noteOf({ searching, trying, complete, list, sentence }) {
   if (sentence) return sentence;
   if (searching) return list.length ? "Looking for more changes that help…" : "Looking for changes that help…";
-  if (!list.length) return trying ? "Looking for changes that help…" : complete ? "No change was found with which the robot can walk." : "The search ended early. Change the drawing to start a new search.";
+  if (!list.length) return trying ? "Looking for changes that help…" : complete ? "No change was found "
+    + "with which the robot can walk." : "The search ended early. Change the drawing to start a new search.";
   return "";
 }
 

@@ -7,7 +7,8 @@ import { jobIsOn } from "../shell/job_list.js";
 import { stepTurn } from "../document/step.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const HELP = "Finds the shortest phases for this foot order and step that keep the limits of motors, stability margin and clearance";
+const HELP = "Finds the shortest phases for this foot order and step that keep the limits of motors, "
+  + "stability margin and clearance";
 
 /** The newest search of the selected gait, unless the gait has changed since. */
 function timingOf({ jobs, selected }) {
@@ -21,11 +22,14 @@ function whyNot(state) {
   const { view, pending } = state;
   if (!view) return "No gait is selected.";
   if (pending.length) return "The studio is still saving your last edit.";
-  if (view.document.poses) return "This is a gait for the robot's clock: the robot's firmware decides its timing.";
-  if (view.document.segment_table) return "This gait is defined by its segment table. To use Fastest timing, draw on the timeline first.";
+  if (view.document.poses) return "This is a gait for the robot's clock: "
+    + "the robot's firmware decides its timing.";
+  if (view.document.segment_table) return "This gait is defined by its segment table. "
+    + "To use Fastest timing, draw on the timeline first.";
   if (stepTurn(view.document) !== 0) return TURNS;
   const job = timingOf(state);
-  return job && jobIsOn(job) ? "A search is running. Cancel the search, or wait until the search ends." : null;
+  return job && jobIsOn(job) ? "A search is running. Cancel the search, or wait until the "
+    + "search ends." : null;
 }
 
 /** The button that begins the search. */
@@ -68,22 +72,27 @@ async function use(usable, store, edits) {
 function onRobot({ seconds, robot_seconds: after }, { plan_seconds: planned, robot_seconds: before }) {
   if (after === null) return ["The gait with this timing cannot be sent to the robot.", false];
   if (before === null) return [`The gait with this timing takes ${fixed(after)} s on the robot.`, true];
-  const change = `Planned time: ${fixed(planned)} → ${fixed(seconds)} s. Time on the robot: ${fixed(before)} → ${fixed(after)} s.`;
-  return after < before ? [change, true] : [`${change} The robot stops at each waypoint, so this timing does not make the robot faster.`, false];
+  const change = `Planned time: ${fixed(planned)} → ${fixed(seconds)} s. Time on the robot: `
+    + `${fixed(before)} → ${fixed(after)} s.`;
+  return after < before ? [change, true] : [`${change} The robot stops at each waypoint, so this timing `
+    + `does not make the robot faster.`, false];
 }
 
-const NO_WHOLE = "Each phase must last a whole number of samples. No timing of whole samples was found that is shorter and keeps all limits.";
+const NO_WHOLE = "Each phase must last a whole number of samples. "
+  + "No shorter timing with whole samples was found that keeps all limits.";
 /** What to do where the timing itself does not help. */
 const INSTEAD = {
   faster: "Try “Faster on the robot”, which makes the same gait with a timing for the robot's firmware.",
-  fewer: "Fewer waypoints make the robot faster. In Check & approve, merge waypoints within 1 mm or choose a longer stop bound.",
+  fewer: "Fewer waypoints make the robot faster. In Check & approve, merge waypoints within 1 mm or choose "
+    + "a longer stop bound.",
 };
 const insteadOf = (view) => (view.conversion_refusal ? INSTEAD.fewer : INSTEAD.faster);
 
 /** What the box says of a search without a result. */
 function withoutResult(job) {
   if (jobIsOn(job)) return "The search is running and takes some seconds.";
-  return job.state === "infeasible" ? `${job.sentence} Change the drawing first, for example as “What would help” says.` : job.sentence;
+  return job.state === "infeasible" ? `${job.sentence} Change the drawing first. `
+    + `The list “What would help” shows possible changes.` : job.sentence;
 }
 
 function found({ result }, view, store, edits) {
@@ -100,7 +109,8 @@ function found({ result }, view, store, edits) {
   const note = h("p", { text: change });
   if (!helps) return [bars, note, h("p", { class: "why", text: insteadOf(view) })];
   const label = `Use ${fixed(usable.seconds)} s`;
-  const button = h("button", { text: label, title: "Changes the phases and the motor limits of the gait to this timing, and starts Optimise",
+  const button = h("button", { text: label, title: "Uses the phases and motor limits of this timing for "
+    + "the gait, and starts Optimise",
     on: { click: attempt(() => use(usable, store, edits)) } });
   return [bars, note, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `phases rounded to samples of ${fixed(usable.sample_time, 2)} s` }))];
 }

@@ -91,7 +91,8 @@ export function patternActions(store, problem, { edits, playback, show }) {
     if (isOld() || store.state.selected !== selected) return;
     if (!plan.times.length) throw new Error(plan.refusal?.sentence ?? "No motion was found for this pattern.");
     store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note: `You see the pattern, not the open gait. ${plan.note}` } } });
-    if (plan.live?.status === "infeasible") toast(`The shown motion does not keep all limits. ${adviceText(problem.state)}`);
+    if (plan.live?.status === "infeasible") toast(`The shown motion does not keep all limits. `
+      + `${adviceText(problem.state)}`);
     playback.toStart();
     playback.play();
   });
@@ -108,7 +109,9 @@ export function patternActions(store, problem, { edits, playback, show }) {
       const isDrawing = problem.state.mode === "drawing";
       const whyNot = why ?? (isDrawing ? whyNotDrawn(shownDocument(store.state)) ?? nothingToDraw(pattern, shownDocument(store.state)) : null);
       setText(make, isDrawing ? LABEL : "Make gait");
-      setAllowed(make, whyNot, isDrawing ? "Draws the pattern into the open gait. Undo restores the old drawing" : "Makes a new gait with this pattern, adds the gait to the list and opens it");
+      setAllowed(make, whyNot, isDrawing ? "Draws the pattern into the open gait. "
+        + "Undo restores the old drawing" : "Makes a new gait with this pattern, adds the gait to the list "
+        + "and opens it");
       const walking = Boolean(store.state.iterate?.pattern);
       setText(walk, walking ? "Stop walking" : "Walk it");
       setAllowed(walk, walking ? null : why, walking ? "Shows the plan of the open gait again" : "Shows in 3D how the robot walks with this pattern. Nothing is saved");

@@ -5,14 +5,15 @@ import { drawnCells, withCells } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const REFUSALS = {
-  end: "You cannot draw in the first and last column. In a transition, move the cursor of gait A or B to change these columns.",
+  end: "You cannot draw in the first and last column. In a transition, move the cursor of gait A or B to "
+    + "change these columns.",
   limb: "This limb is locked. To unlock the limb, click its name.",
   given: "This cell is fixed in the drawing of the open gait. Unlock the cell on the timeline.",
 };
 
 const DRAWN = "You drew this cell. Click to free the cell.";
-const FREE = "Click: change between swing and stance. Shift+click: fix the cell with its value. "
-  + "Drag: the same for several cells.";
+const FREE = "Click: change between swing and stance. Shift+click: fix the present value of the cell. "
+  + "Drag: change several cells.";
 
 /** Turns places on the screen into cells; measured once a drag. */
 function finder(lines) {

@@ -8,9 +8,12 @@ import { report } from "../lib/toasts.js";
 const KEY = "footfall.patterns.open";
 
 const ENTRIES = [
-  { mode: "transition", text: "Transition to…", help: "Searches for the footfall pattern of a transition from this gait to another gait" },
-  { mode: "limbs", text: "Gait for some limbs…", help: "Searches for a gait in which only some limbs walk. The other limbs are held up, broken or on the ground" },
-  { mode: "drawing", text: "Complete the drawing…", help: "Keeps the locked cells of this gait's timeline and searches for the other cells" },
+  { mode: "transition", text: "Transition to…", help: "Searches for the footfall pattern of a transition "
+    + "from this gait to another gait" },
+  { mode: "limbs", text: "Gait for some limbs…", help: "Searches for a gait in which only some limbs walk. "
+    + "The other limbs are held up, broken or on the ground" },
+  { mode: "drawing", text: "Complete the drawing…", help: "Keeps the locked cells of this gait's timeline "
+    + "and searches for the other cells" },
 ];
 
 function remembersOpen(open) {

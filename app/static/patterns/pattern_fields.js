@@ -10,9 +10,11 @@ const MODES = {
   drawing: ["Complete", "Keeps the locked cells of the open gait and searches for the other cells"],
 };
 const TEACH = {
-  transition: "Choose two gaits below, and move the cursor in each gait. Click cells to draw swing or stance. The search finds the other cells.",
+  transition: "Choose two gaits below, and move the cursor in each gait. "
+    + "Click cells to draw swing or stance. The search finds the other cells.",
   limbs: "Choose the limbs that do not walk. The search finds a repeating pattern for the other limbs.",
-  drawing: "The locked cells of the open gait stay, and so do its first and last sample. The search finds the other cells.",
+  drawing: "The locked cells of the open gait stay, and so do its first and last sample. "
+    + "The search finds the other cells.",
 };
 const [LEAST, MOST] = [2, 240];
 
@@ -47,12 +49,18 @@ export function patternFields(store, problem, lock) {
     return document ? { robot: document.robot, legs: document.timeline.feet.length, roles: store.state.view.roles ?? [] } : null;
   };
   const choice = modes(problem);
-  const samples = lengthField("Length", "Number of samples of the transition, including its first and last sample", (value) => problem.set({ samples: value }));
+  const samples = lengthField("Length", "Number of samples of the transition, including its first and "
+    + "last sample", (value) => problem.set({ samples: value }));
   const cycle = lengthField("Length of a cycle", "The pattern repeats after this many samples", (value) => problem.set({ cycle: value }));
-  const shortest = check("Shortest that works", "The search chooses the length. It uses as few samples as the rules allow", (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
-  const walkable = check("Swings that the feet can do", "Makes every swing long enough for the steps of both gaits, also swings at the start and end of the transition. This rule is not in the footfall thesis", (on) => problem.set({ walkable: on }));
-  const keep = check("Keep what I drew where you can", "The search prefers patterns that are similar to the shown pattern", (on) => problem.set({ keep: on }));
-  const painted = check("Swings stay as they are painted", "Keeps every painted swing, in addition to the locked cells", (on) => problem.set({ painted: on }));
+  const shortest = check("Shortest that works", "The search chooses the length. "
+    + "The transition gets as few samples as the rules allow", (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
+  const walkable = check("Swings that the feet can do", "Makes every swing long enough for the steps of "
+    + "both gaits, also swings at the start and end of the transition. "
+    + "This rule is not in the footfall thesis", (on) => problem.set({ walkable: on }));
+  const keep = check("Keep my drawing if possible", "The search prefers patterns that are similar to the "
+    + "shown pattern", (on) => problem.set({ keep: on }));
+  const painted = check("Keep the painted swings", "The search changes no painted swing and no "
+    + "locked cell", (on) => problem.set({ painted: on }));
   const [limbs, locks] = [limbChoices(problem, about), limbLocks(problem, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null })];
   const locking = h("div", { class: "pattern-locking" }, h("span", { class: "quiet", text: "Locked limbs" }), locks.element);
   const teach = h("p", { class: "teach" });
@@ -134,7 +142,9 @@ function limbLocks(problem, { refusal, lock }) {
       buttons.forEach((button, foot) => {
         const isGiven = given(foot);
         setAttribute(button, "aria-pressed", String(isGiven || problem.state.locked.includes(foot)));
-        setAllowed(button, isGiven ? "This limb keeps one state in both gaits, and therefore also in the transition." : refusal(foot), "Locks this limb. A locked limb keeps one state during the whole transition, and does not count as a walking limb");
+        setAllowed(button, isGiven ? "This limb keeps one state in both gaits, and therefore also in the "
+          + "transition." : refusal(foot), "Locks this limb. A locked limb keeps one state during the "
+          + "whole transition, and does not count as a walking limb");
       });
     },
   };

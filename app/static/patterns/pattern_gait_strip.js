@@ -29,7 +29,8 @@ export function stateText(feet, sample) {
   return `${standing.length ? one(standing, "stand") : "no foot stands"}, ${one(swinging, "swing")}`;
 }
 
-const cursorHelp = (side) => `The transition ${side === "from" ? "starts" : "ends"} with the state of this gait at the cursor. `
+const cursorHelp = (side) => `The transition ${side === "from" ? "starts" : "ends"} with the state of this `
+  + `gait at the cursor. `
   + "To move the cursor, click, drag, or press Left, Right (with Shift: ten samples), Home or End";
 
 /**

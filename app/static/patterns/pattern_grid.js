@@ -41,8 +41,9 @@ function drawRow(line, foot, shown, role) {
  */
 export function patternGrid(problem, actions) {
   const element = h("div", { class: "timeline pattern-grid", role: "grid", "aria-label": "Pattern",
-    "aria-description": "Space changes a cell between swing and stance and fixes the cell. On a drawn cell, Space frees the cell. "
-      + "K fixes a cell with its value" });
+    "aria-description": "Space changes a cell between swing and stance and fixes the cell. "
+      + "On a drawn cell, Space frees the cell. "
+      + "K fixes the present value of a cell" });
   let lines = [];
   let now = { samples: 0 };
   const roving = rovingFocus(() => lines, () => {});

@@ -19,9 +19,12 @@ function ofTransition(store, problem) {
   const ends = (foot) => [first.timeline.feet[foot][at(first, from)], second.timeline.feet[foot][at(second, to)]];
   const isLocked = (foot) => given(first, second, foot) || (locked.includes(foot) && ends(foot)[0] === ends(foot)[1]);
   return {
-    legs: first.timeline.feet.length, samples: count, isLocked, limbHelp: "Click to lock or unlock this limb. A locked limb keeps one state during the whole transition",
+    legs: first.timeline.feet.length, samples: count, isLocked, limbHelp: "Click to lock or unlock this "
+      + "limb. A locked limb keeps one state during the whole transition",
     given: (foot) => given(first, second, foot),
-    lockRefusal: (foot) => (ends(foot)[0] === ends(foot)[1] ? null : "This limb cannot be locked, because it stands at one end of the transition and swings at the other end. Move the cursor in one of the two gaits first."),
+    lockRefusal: (foot) => (ends(foot)[0] === ends(foot)[1] ? null : "This limb cannot be locked, because "
+      + "it stands at one end of the transition and swings at the other end. "
+      + "Move the cursor in one of the two gaits first."),
     base: (foot, sample) => (sample === 0 ? ["end", ends(foot)[0]] : sample === count - 1 ? ["end", ends(foot)[1]] : isLocked(foot) ? ["limb", ends(foot)[0]] : null),
   };
 }
@@ -30,7 +33,8 @@ function ofLimbs(store, problem) {
   const document = shownDocument(store.state);
   const limbs = limbsOf(problem.state, { robot: document.robot, legs: document.timeline.feet.length });
   const isLocked = (foot) => limbs[foot] !== "walks";
-  return { legs: limbs.length, samples: problem.state.cycle, isLocked, limbHelp: "Click to hold this limb up, or to let the limb walk", base: (foot) => (isLocked(foot) ? ["limb", limbs[foot] === "stands" ? "1" : "0"] : null) };
+  return { legs: limbs.length, samples: problem.state.cycle, isLocked, limbHelp: "Click to hold this limb "
+    + "up, or to let the limb walk", base: (foot) => (isLocked(foot) ? ["limb", limbs[foot] === "stands" ? "1" : "0"] : null) };
 }
 
 function ofDrawing(store, problem) {

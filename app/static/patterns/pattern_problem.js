@@ -7,21 +7,27 @@ const KEY = "patterns";
 
 /** The rules in plain words, with the thesis's own number; `scale` from what a person types to SI. */
 export const RULES = [
-  { rule: "shortest_swing", name: "Shortest swing", unit: "samples", usual: 2, help: "Rule g2 of the footfall thesis. Swings that begin before the transition or end after it may be shorter" },
+  { rule: "shortest_swing", name: "Shortest swing", unit: "samples", usual: 2, help: "Rule g2 of the "
+    + "footfall thesis. Swings that begin before the transition or end after it may be shorter" },
   { rule: "shortest_stance", name: "Shortest stance", unit: "samples", usual: 3, help: "Rules g9 and g10 of the footfall thesis. Applies to stances between two swings" },
-  { rule: "feet_down", name: "Feet down, at least", unit: "feet", usual: 3, help: "Rule g3 of the footfall thesis. Applies to every sample" },
+  { rule: "feet_down", name: "Feet down, at least", unit: "feet", usual: 3, help: "Rule g3 of the footfall "
+    + "thesis. Applies to every sample" },
   { rule: "feet_down_each_side", name: "Feet down on each side", unit: "feet", usual: 1, help: "Rules g4 and g5 of the footfall thesis. The sides are left and right of the walking direction. A foot on the centre line counts for both sides" },
-  { rule: "workload", name: "Workloads differ by", unit: "samples", usual: 2, help: "Rules g6 and g7 of the footfall thesis. Largest difference between the stance samples of two walking limbs" },
+  { rule: "workload", name: "Workloads differ by", unit: "samples", usual: 2, help: "Rules g6 and g7 of "
+    + "the footfall thesis. Largest allowed difference between the numbers of stance samples of two "
+    + "walking limbs" },
   { rule: "limb_changes", name: "Changes per limb, at most", unit: "times", usual: 2, help: "Rule g8 of the footfall thesis. A change goes from stance to swing, or from swing to stance" },
-  { rule: "least_swing", name: "Swing per limb, at least", unit: "samples", usual: 2, help: "Rule g11 of the footfall thesis. Number of samples in which each walking limb swings" },
-  { rule: "balance", name: "Balance margin", unit: "mm", usual: null, first: 0, scale: 0.001, help: "Not in the thesis. At every sample, the body has a place that is at least this far inside the support polygon. The body can move from each place to the next within its largest speed" },
+  { rule: "least_swing", name: "Swing per limb, at least", unit: "samples", usual: 2, help: "Rule g11 of the footfall thesis. Least number of samples in which each walking limb swings" },
+  { rule: "balance", name: "Balance margin", unit: "mm", usual: null, first: 0, scale: 0.001, help: "Not in the thesis. At every sample, the body has a place that is at least this far inside the support polygon. The body can move from each place to the next without exceeding its largest speed" },
 ];
 
 /** What a change costs; the pattern of the smallest sum is best. */
 export const WEIGHTS = [
   { weight: "sample_changes", name: "A moment at which any limb changes", usual: 1000, help: "Objective of the footfall thesis" },
-  { weight: "limb_changes", name: "A change of one limb", usual: 1, help: "With the usual number, this decides only between patterns that are otherwise equal" },
-  { weight: "drawing", name: "A cell that differs from my drawing", usual: 10, help: "Counts in Complete, and while “Keep what I drew where you can” is on" },
+  { weight: "limb_changes", name: "A change of one limb", usual: 1, help: "With the usual number, this "
+    + "decides only between patterns that are otherwise equal" },
+  { weight: "drawing", name: "A cell that differs from my drawing", usual: 10, help: "Counts in Complete, "
+    + "and while “Keep my drawing if possible” is on" },
 ];
 
 export const ROLES = { walks: "walks", held: "held up", broken: "broken", stands: "stands" };

@@ -34,9 +34,11 @@ function progressBox(search) {
       if (!running) return;
       const { objective, bound, seconds: past } = running;
       const known = objective !== null && objective !== undefined;
-      setText(text, `Searching for ${seconds(past ?? 0)} s · ${known ? `best so far: ${scoreText(running.pattern, false)} · score ${fixed(objective, 0)}, lower bound ${fixed(bound, 0)} · gap ${gapOf(running)} %` : "no pattern yet"}`);
+      setText(text, `Searching for ${seconds(past ?? 0)} s · `
+        + `${known ? `best so far: ${scoreText(running.pattern, false)} · score ${fixed(objective, 0)}, lower bound ${fixed(bound, 0)} · gap ${gapOf(running)} %` : "no pattern yet"}`);
       bar.style.transform = `scaleX(${known && objective > 0 ? Math.min(Math.max(bound, 0) / objective, 1) : 0})`;
-      setAllowed(useNow, known ? null : "No pattern has been found yet.", "Ends the search and uses the best pattern found so far");
+      setAllowed(useNow, known ? null : "No pattern has been found yet.", "Ends the search and uses the "
+        + "best pattern found so far");
     },
   };
 }
@@ -46,7 +48,9 @@ function longerSwings(state, explanation) {
   const needed = Math.max(...explanation.map((text) => Number(/swings? .*?at least (\d+) samples/.exec(text)?.[1] ?? 0)));
   const required = ruleOf(state, RULES.find(({ rule }) => rule === "least_swing")).value;
   return state.mode === "transition" && state.walkable && needed > required
-    ? [h("p", { class: "quiet", text: `The rule asks for swings of ${required} samples. “Swings that the feet can do” asks for ${needed} samples, because of the steps of these gaits.` })] : [];
+    ? [h("p", { class: "quiet", text: `The rule asks for swings of ${required} samples. `
+      + `“Swings that the feet can do” asks for ${needed} samples, because of the steps of `
+      + `these gaits.` })] : [];
 }
 
 function conflictBox(problem) {

@@ -36,7 +36,8 @@ const hatch = () => svg("svg", { class: "sprite", "aria-hidden": "true" }, svg("
   svg("line", { x1: 0, y1: 0, x2: 0, y2: 0.4, "stroke-width": 0.22, class: "pattern-hatch-line" }))));
 
 function gaitParts(store, problem) {
-  const part = (side, name) => patternGaitStrip({ side, name, help: `The transition ${side === "from" ? "starts in" : "ends in"} this gait`,
+  const part = (side, name) => patternGaitStrip({ side, name, help: `The transition `
+    + `${side === "from" ? "starts in" : "ends in"} this gait`,
     choose: (gait) => problem.set({ [side]: { gait, sample: null } }), move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }) });
   const parts = { from: part("from", "Gait A"), to: part("to", "Gait B") };
   return {
@@ -59,7 +60,8 @@ function limbLocking(store, problem, shown) {
   const lock = (foot) => {
     const now = shown();
     const { locked } = problem.state;
-    const refusal = now?.given(foot) ? "This limb keeps one state in both gaits, and therefore also in the transition." : now?.lockRefusal(foot);
+    const refusal = now?.given(foot) ? "This limb keeps one state in both gaits, and therefore also in the "
+      + "transition." : now?.lockRefusal(foot);
     if (locked.includes(foot)) problem.set({ locked: locked.filter((one) => one !== foot) });
     else if (refusal) toast(refusal);
     else problem.set({ locked: [...locked, foot] });

@@ -7,9 +7,12 @@ const NAME = /^[^\t\r\n,;"]{1,40}$/;
 
 /** Why a name cannot be taken; null where it can. */
 function nameReason(name, taken, what, withoutDash) {
-  if (!NAME.test(name)) return `The name of a ${what} must have 1 to 40 characters, without tabs, commas, semicolons and quotes.`;
-  if (withoutDash && name.includes("-")) return `The name “${name}” must not contain a hyphen. In a position, the hyphen stands between the names of place and height.`;
-  if (taken.some((one) => one.toLowerCase() === name.toLowerCase())) return `A ${what} “${name}” already exists. Choose another name.`;
+  if (!NAME.test(name)) return `The name of a ${what} must have 1 to 40 characters, without tabs, commas, `
+    + `semicolons and quotes.`;
+  if (withoutDash && name.includes("-")) return `The name “${name}” must not contain a hyphen. `
+    + `In a position, the hyphen stands between the names of place and height.`;
+  if (taken.some((one) => one.toLowerCase() === name.toLowerCase())) return `A ${what} “${name}” already `
+    + `exists. Choose another name.`;
   return null;
 }
 
@@ -95,8 +98,10 @@ const freshName = (taken, stem) => {
 /** Why a number cannot be a place or a height, which the motors of the robot have to reach; null where it can. */
 function numberReason(name, number, unit, [least, most]) {
   if (number >= least && number <= most) return null;
-  if (unit !== "mm" || Number.isNaN(number)) return `“${name}” needs a number between ${least} and ${most}${unit === "mm" ? " mm" : ""}. The old number is kept.`;
-  return `“${name}” cannot be ${number} mm. The robot's motors reach ${least} to ${most} mm. Type a height in this range.`;
+  if (unit !== "mm" || Number.isNaN(number)) return `“${name}” needs a number between ${least} and `
+    + `${most}${unit === "mm" ? " mm" : ""}. The old number is kept.`;
+  return `“${name}” cannot be ${number} mm. The robot's motors reach ${least} to ${most} mm. `
+    + `Type a height in this range.`;
 }
 
 /** One axis of the named positions: its names and values. */
@@ -122,7 +127,8 @@ function axisPart(sheet, axis, { run, refuse, strokes }) {
           return numberReason(name, number, unit, range) ?? run({ change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: stored(number) } })), label: `${name} to ${number}${unit === "mm" ? " mm" : " × the step"}` });
         },
       }),
-      deletion(`Delete the ${what} ${name}`, user ? `The segment “${user}” uses “${name}”. Change or delete the segment first.` : last ? `The last ${what} cannot be deleted.` : null,
+      deletion(`Delete the ${what} ${name}`, user ? `The segment “${user}” uses “${name}”. `
+        + `Change or delete the segment first.` : last ? `The last ${what} cannot be deleted.` : null,
         () => run({ change: withDefinitions((words) => ({ [axis]: without(words[axis], name) })), label: `Delete ${what} ${name}` }), refuse));
   });
   const add = h("button", { class: "link", text: `Add a ${what}`, on: {
@@ -150,7 +156,8 @@ function segmentRow(sheet, name, { run, refuse }) {
     choice({ label: `Start of ${name}`, value: segment.start, options: positions, read: (start) => set({ start }, `${name} starts at ${start}`) }),
     choice({ label: `End of ${name}`, value: segment.end, options: positions, read: (end) => set({ end }, `${name} ends at ${end}`) }),
     air,
-    deletion(`Delete the segment ${name}`, uses ? `The table uses “${name}” in ${counted(uses, "cell")}. Choose other segments there first.` : Object.keys(sheet.words.segments).length === 1 ? "The last segment cannot be deleted." : null,
+    deletion(`Delete the segment ${name}`, uses ? `The table uses “${name}” in ${counted(uses, "cell")}. `
+      + `Replace “${name}” in the table first.` : Object.keys(sheet.words.segments).length === 1 ? "The last segment cannot be deleted." : null,
       () => run({ change: withDefinitions((words) => ({ segments: without(words.segments, name) })), label: `Delete segment ${name}` }), refuse));
 }
 

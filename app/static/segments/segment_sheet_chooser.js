@@ -8,7 +8,7 @@ const matches = (name, text) => name.toLowerCase().startsWith(text) || name.toLo
 function option(choice, index) {
   const { name, segment, why } = choice;
   const way = segment.start === segment.end ? `waits at ${segment.start}` : `${segment.start} → ${segment.end}`;
-  return h("li", { role: "option", id: `segment-option-${index}`, "aria-selected": "false", data: { ...(segment.swing ? { swing: "" } : {}), ...(why ? { why: "" } : {}) }, title: why ? `“${name}” ${why}. You can choose it, but then the segments before or after it must change.` : null },
+  return h("li", { role: "option", id: `segment-option-${index}`, "aria-selected": "false", data: { ...(segment.swing ? { swing: "" } : {}), ...(why ? { why: "" } : {}) }, title: why ? `“${name}” ${why}. You can choose this segment, but then the segments before or after it must change.` : null },
     h("b", { text: name }), h("span", { text: why ?? way }));
 }
 

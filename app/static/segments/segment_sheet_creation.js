@@ -8,7 +8,8 @@ import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
 
-const EMPTY = "The footfalls of this gait are drawn on the timeline. A segment table describes footfalls in words: "
+const EMPTY = "The footfalls of this gait are drawn on the timeline. "
+  + "A segment table describes footfalls in words: "
   + "in each segment, every foot makes one named movement, such as Lift A, Step A or Wait A.";
 
 /** The document drawn with phases that fit two segments, or null if a person drew the timeline. */
@@ -45,7 +46,8 @@ export function mountSegmentSheetCreation(store, edits) {
     if (store.state.view?.id !== id || store.state.view.revision !== revision) return;
     found = answer;
     offer = table && { ...other, segment_table: table };
-    setAllowed(make, found.table ? null : found.sentence, "Describes the same footfalls as named segments. Undo removes the table");
+    setAllowed(make, found.table ? null : found.sentence, "Describes the same footfalls as named segments. "
+      + "Undo removes the table");
     setText(why, found.sentence ?? "");
     roomy.hidden = !offer;
     if (!offer) return;

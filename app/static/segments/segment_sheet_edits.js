@@ -45,7 +45,8 @@ export function setWaits(sheet, range) {
     const first = range.rows[0];
     const place = placeBefore(sheet, first, foot) ?? sheet.words.segments[sheet.rows[first][foot]]?.start;
     const name = waitAt(sheet, place);
-    if (!name) return { reason: `Foot ${foot + 1} is at ${place} before ${rowName(sheet, first)}, but no segment waits at ${place}. Add such a segment under Vocabulary.` };
+    if (!name) return { reason: `Foot ${foot + 1} is at ${place} before ${rowName(sheet, first)}, but no `
+      + `segment waits at ${place}. Add such a segment under Vocabulary.` };
     for (let row = first; row <= range.rows[1]; row += 1) cells.push([row, foot, name]);
   }
   return put(sheet, cells, `${capital(rangeName(sheet, range))} to waiting`);
@@ -70,7 +71,8 @@ export function paste(sheet, range, names) {
   const block = alone ? cellsOf(range).map(([row, foot]) => [row, foot, names[0][0]]) : names.flatMap((row, down) => row.map((name, right) => [top + down, left + right, name]));
   const fitting = block.filter(([row, foot]) => row < sheet.rows.length && foot < sheet.legs);
   const wrong = fitting.find(([, , name]) => !nameOf(name));
-  if (wrong) return { reason: `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: there is no segment “${wrong[2]}”. The known segments are ${[...known.values()].join(", ")}.` };
+  if (wrong) return { reason: `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: `
+    + `there is no segment “${wrong[2]}”. The known segments are ${[...known.values()].join(", ")}.` };
   const cells = fitting.map(([row, foot, name]) => [row, foot, nameOf(name)]);
   const [below, beside] = [top + names.length - sheet.rows.length, left + Math.max(...names.map((row) => row.length)) - sheet.legs];
   const missing = alone ? [] : [below > 0 && `${counted(below, "row")} below the last segment`, beside > 0 && `${counted(beside, "column")} after the last foot`].filter(Boolean);
@@ -79,7 +81,8 @@ export function paste(sheet, range, names) {
   const outcome = put(sheet, cells, `Paste into ${rangeName(sheet, filled)}`);
   const broken = outcome.change && errorsOf(outcome.change(sheet)).find(({ stops }) => stops);
   if (broken) return { reason: `Not pasted. ${errorSentence(sheet, broken)} The table has not changed.` };
-  return { ...outcome, range: filled, note: missing.length ? `${missing.join(" and ")} did not fit and were not pasted.` : null };
+  return { ...outcome, range: filled, note: missing.length ? `${missing.join(" and ")} did not fit and `
+    + `were not pasted.` : null };
 }
 
 /** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` if it is the link's. */
@@ -89,7 +92,9 @@ export function insertRow(sheet, after, inLink = false) {
   for (let foot = 0; foot < sheet.legs; foot += 1) {
     const place = before < 0 ? sheet.words.segments[sheet.rows[0][foot]]?.start : placeAfter(sheet, before, foot);
     const name = waitAt(sheet, place);
-    if (!name) return { reason: `No segment can be inserted here. Foot ${foot + 1} is in the air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no segment waits at ${place}. Insert before or after the step of this foot.` };
+    if (!name) return { reason: `No segment can be inserted here. `
+      + `Foot ${foot + 1} is in the air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no `
+      + `segment waits at ${place}. Insert before or after the step of this foot.` };
     names.push(name);
   }
   const change = (now) => {
@@ -130,10 +135,12 @@ export function addLinkRow(sheet) {
 export function setNumber(sheet, field, value) {
   const words = { samples: "Samples a segment", from: "Repeat from segment", to: "Repeat to segment" };
   const [least, most, why] = {
-    samples: [2, Math.floor(MOST_SAMPLES / walked(sheet).length), `a timeline has at most ${MOST_SAMPLES} samples`],
+    samples: [2, Math.floor(MOST_SAMPLES / walked(sheet).length), `a timeline has at most ${MOST_SAMPLES} `
+      + `samples`],
     from: [1, sheet.to, `the repeating part ends with segment ${sheet.to}`], to: [sheet.from, sheet.count, `the repeating part begins with segment ${sheet.from} and the table has ${counted(sheet.count, "segment")}`],
   }[field];
   if (sheet[field] === value) return { reason: "The field already has this value." };
-  if (value < least || value > most) return { reason: `“${words[field]}” cannot be ${value}. It must lie between ${least} and ${most}, because ${why}.` };
+  if (value < least || value > most) return { reason: `“${words[field]}” cannot be ${value}. `
+    + `The value must lie between ${least} and ${most}, because ${why}.` };
   return { change: (now) => ({ ...now, [field]: value, toEnd: field === "to" ? false : now.toEnd }), label: `${words[field]} ${field === "samples" ? "to " : ""}${value}`, kept: [] };
 }

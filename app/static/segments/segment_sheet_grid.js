@@ -44,8 +44,9 @@ export function createSegmentSheetGrid(grid, addLink) {
     parts = sheet.rows.map((_, row) => bodyRow(sheet, row));
     const elements = parts.map(({ element }) => element);
     const linked = sheet.rows.length > sheet.count;
-    const bridge = h("div", { role: "row", class: "bridge" }, h("div", { role: "rowheader", title: "The link connects two iterations. It replaces the segments before and after the repeating part" }, "Link", h("span", { text: linked ? "connects two iterations" : "none" }),
-      linked ? null : h("button", { class: "link", text: "Add", title: "Add a segment that connects one iteration with the next iteration", on: { click: addLink } })));
+    const bridge = h("div", { role: "row", class: "bridge" }, h("div", { role: "rowheader", title: "Between two iterations, the link replaces the segments before and after the repeating part" }, "Link", h("span", { text: linked ? "connects two iterations" : "none" }),
+      linked ? null : h("button", { class: "link", text: "Add", title: "Add a segment that connects one "
+        + "iteration with the next iteration", on: { click: addLink } })));
     elements.splice(sheet.count, 0, bridge);
     grid.replaceChildren(headRow(sheet.legs, roles), ...elements);
     grid.style.setProperty("--feet", sheet.legs);
@@ -65,7 +66,7 @@ export function createSegmentSheetGrid(grid, addLink) {
       parts.forEach(({ element, head, cells }, row) => {
         const repeats = row >= sheet.from - 1 && row < sheet.to;
         element.toggleAttribute("data-repeats", repeats);
-        setAttribute(head, "title", row >= sheet.count ? "Between two iterations" : repeats ? "This segment repeats in every iteration" : row < sheet.from - 1 ? "Only once, at the beginning of the gait" : "Only once, at the end of the gait");
+        setAttribute(head, "title", row >= sheet.count ? "Between two iterations" : repeats ? "This segment repeats in every iteration" : row < sheet.from - 1 ? "This segment is walked once, at the beginning of the gait" : "This segment is walked once, at the end of the gait");
         cells.forEach((cell, foot) => drawCell(cell, sheet, row, foot, found.get(`${row},${foot}`)));
       });
       return isNew;

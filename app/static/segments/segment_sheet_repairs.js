@@ -70,7 +70,8 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
     note.replaceChildren(h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
       h("div", { class: "buttons" },
         ...offers.map(({ label, help, step }) => h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } })),
-        stops && h("button", { text: "Take it back", title: "Restores the last valid table. Ctrl+Z undoes only the last change", on: { click: act(() => dropSegmentDraft(store)) } })));
+        stops && h("button", { text: "Take it back", title: "Restores the last valid table. "
+          + "Ctrl+Z undoes only the last change", on: { click: act(() => dropSegmentDraft(store)) } })));
     request(sheet);
   }
 

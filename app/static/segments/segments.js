@@ -22,7 +22,8 @@ function numberFields(store, edits, run) {
     read: () => shownSegmentSheet(store.state)?.[key] ?? null, act: (value) => run(setNumber(shownSegmentSheet(store.state), key, value)),
   });
   return [
-    field("Samples", "Samples a segment", "samples", 200, "Number of samples of each segment, including its first and last sample"),
+    field("Samples", "Samples a segment", "samples", 200, "Number of samples of each segment, including "
+      + "its first and last sample"),
     field("Repeat", "Repeat from segment", "from", 999, "First segment of the part that every iteration repeats"),
     field("to", "Repeat to segment", "to", 999, "Last segment of the part that every iteration repeats"),
   ];
@@ -30,9 +31,11 @@ function numberFields(store, edits, run) {
 
 function tools(input, toggleDefinitions) {
   const button = (text, title, act) => h("button", { text, title, on: { click: act } });
-  const words = h("button", { text: "Vocabulary", title: "Shows the named positions and segments of this table", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleDefinitions(words) } });
+  const words = h("button", { text: "Vocabulary", title: "Shows the named positions and segments of "
+    + "this table", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleDefinitions(words) } });
   const bar = h("div", { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
-    button("Insert", "Adds a segment in which every foot waits, after the selected segments (key Insert) or before them (Alt+Insert)", () => input.insert()),
+    button("Insert", "Adds a segment in which every foot waits, after the selected segments (key Insert) "
+      + "or before them (Alt+Insert)", () => input.insert()),
     button("Remove", "Removes the selected segments for all feet (Ctrl+Delete)", () => input.remove()),
     button("Fill down", "Copies the first selected row into the selected rows below it (Ctrl+D)", () => input.fill()), words);
   oneTabStop(bar, { isToolbar: true });
@@ -149,7 +152,8 @@ function mountSegmentDrafts(store) {
   function drop(view) {
     put(view.id, null);
     write(view.id, null);
-    toast(`The segment table of “${view.document.name}” was changed in another window. Your changes that did not fit yet were discarded.`);
+    toast(`The segment table of “${view.document.name}” was changed in another window. `
+      + `Your changes that did not fit yet were discarded.`);
   }
 
   function recall(view, base) {

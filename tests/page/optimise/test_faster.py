@@ -73,7 +73,7 @@ def test_both_sides_are_compared_and_taken_over_in_one_undo_step(page: Page, tmp
 
 def test_it_becomes_a_new_gait_that_is_drawn_freely_again(page: Page) -> None:
     dialog = compared(page)
-    dialog.get_by_role("button", name="As a new gait").click()
+    dialog.get_by_role("button", name="Save as a new gait").click()
     expect(page.get_by_label("Gait name")).to_have_value("Slow, for the robot's clock")
     expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
     expect(button(page, "Faster on the robot")).to_be_hidden()

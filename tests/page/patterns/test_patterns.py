@@ -294,7 +294,7 @@ def test_a_drawing_is_completed_by_one_edit(search: Page, studio: StudioProcess)
     assert studio.ask("POST", "/api/gaits", half).status == 201
     choose_gait(search, "Half drawn")
     search.get_by_role("button", name="Complete", exact=True).click()
-    search.get_by_label("Swings stay as they are painted").check()
+    search.get_by_label("Keep the painted swings").check()
     wait_for(lambda: len(rows(search)) == 4 and len(rows(search)[0]) == 24, "the drawing's grid")
     solved(search)
     done = rows(search)

@@ -169,7 +169,7 @@ def test_numbers_and_the_link_are_typed(page: Page, studio: StudioProcess) -> No
     repeat.fill("99")
     repeat.press("Enter")
     expect(page.locator("#toasts")).to_contain_text(
-        "“Repeat to segment” cannot be 99. It must lie between 4 and 11"
+        "“Repeat to segment” cannot be 99. The value must lie between 4 and 11"
     )
     assert table(studio, gait)["repeat_to"] == 10
 

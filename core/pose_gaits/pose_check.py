@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats
-from core.pose_gaits.motion_in_move import SAMPLES, MotionInMove, motion_in_move
+from core.pose_gaits.motion_in_move import SAMPLES, MotionInMove, motions_in_moves
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import MOST_TURN, REST_HEIGHT, SWING_SHARE, PoseProblem
 from core.problem.motion_problem import standing_pose
@@ -108,7 +108,7 @@ def check_poses(gait: PoseGait, samples: int = SAMPLES) -> PoseCheck:
         gait: poses, strokes and problem.
         samples: places along each move.
     """
-    motions = [motion_in_move(gait, move, samples) for move in range(gait.problem.move_count)]
+    motions = motions_in_moves(gait, samples)
     findings = [*_end_findings(gait), *_stroke_findings(gait)]
     for move, motion in enumerate(motions):
         findings += _move_findings(gait.problem, move, motion)

@@ -7,7 +7,7 @@ poses, and between two of them every motor moves along a straight line.
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from types import MappingProxyType
 
 import numpy as np
@@ -351,6 +351,7 @@ def _is_balanced_without(problem: PoseProblem, feet: set[int]) -> bool:
     return bool(room[0] > problem.bounds.margin)
 
 
+@lru_cache(maxsize=256)
 def _shares_balance(model: RobotModel, first: int, second: int, margin: float) -> bool:
     """Whether one place of the body is balanced without either foot, in the standard stance."""
     feet = model.module_centres_robot[:, :2]

@@ -7,6 +7,7 @@ across the arm, the knee's bar above and the platform's bar below.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.arrays import Floats
 from core.robot.leg import foot_from_strokes, vertex_directions
@@ -17,6 +18,7 @@ ARM_GAP = 0.0005
 """Room between the arms of two legs below which the check warns, and that the fastest walks keep, m."""
 TOGETHER = 400
 """Poses that are looked at together, so that memory stays small."""
+Indices = NDArray[np.intp]
 PARALLEL = 1e-15
 """Squared area between two segments, m⁴, below which they count as parallel."""
 
@@ -109,3 +111,50 @@ def arm_gaps(model: RobotModel, strokes: Floats) -> Floats:
         ]
         found.append(np.stack(distances, axis=-1))
     return np.concatenate(found) - model.shape.rod_diameter
+
+
+def least_arm_gaps(model: RobotModel, strokes: Floats) -> Floats:
+    """Least room between the arms of neighbouring legs over some samples, as `arm_gaps` has it, but sooner.
+
+    Bars are at least as far apart as their shadows on the line through the modules' centres. So only bars
+    whose shadows are nearer than the nearest bars that are known need to be looked at.
+
+    Args:
+        model: the robot.
+        strokes: (groups, n, legs, 3) m.
+
+    Returns:
+        (groups, pairs) m, in the order of `neighbour_pairs`; inf where a leg has no pose at any sample.
+    """
+    groups, samples = strokes.shape[:2]
+    pairs = neighbour_pairs(model.leg_count)
+    bars = arm_bars(model, strokes.reshape(-1, *strokes.shape[2:]))
+    bars = bars.reshape(groups, samples, model.leg_count, -1, 2, 3)
+    least = np.full((groups, len(pairs)), np.inf)
+    for place, (one, other) in enumerate(pairs):
+        first, second = bars[:, :, one], bars[:, :, other]
+        towards = model.module_centres_robot[one] - model.module_centres_robot[other]
+        towards = towards / np.linalg.norm(towards)
+        near = (first @ towards).min(axis=-1)[..., :, None] - (second @ towards).max(axis=-1)[..., None, :]
+        near = np.where(np.isnan(near), np.inf, near).reshape(groups, -1)
+        best = np.full(groups, np.inf)
+        known = np.nonzero(np.isfinite(near).any(axis=1))[0]
+        best[known] = _bar_distances(first, second, known, near[known].argmin(axis=1))
+        group, index = np.nonzero(near < best[:, None])
+        np.minimum.at(best, group, _bar_distances(first, second, group, index))
+        least[:, place] = best
+    return least - model.shape.rod_diameter
+
+
+def _bar_distances(first: Floats, second: Floats, group: Indices, index: Indices) -> Floats:
+    """(k,) distances of chosen bars of two legs, m.
+
+    Args:
+        first: (groups, n, bars, 2, 3) of one leg, m.
+        second: likewise of the other.
+        group: (k,) which group.
+        index: (k,) which sample, bar of the first leg and bar of the second, as one number.
+    """
+    sample, pair = np.divmod(index, first.shape[2] * second.shape[2])
+    bar, against = np.divmod(pair, second.shape[2])
+    return nearest_points(first[group, sample, bar], second[group, sample, against]).distances

@@ -212,10 +212,18 @@ def load_robot(name: str) -> RobotModel:
     Raises:
         InputError: there is no robot of that name, or its file lacks something.
     """
+    return robot_from_table(robot_table(name), f"{name}.toml")
+
+
+def robot_table(name: str) -> dict[str, Any]:
+    """A robot's parameters file as it stands.
+
+    Raises:
+        InputError: there is no robot of that name.
+    """
     if name not in ROBOT_NAMES:
         raise InputError(f"There is no robot “{name}”; choose one of {', '.join(ROBOT_NAMES)}.", "robot")
-    text = package_files("robot_description").joinpath(f"{name}.toml").read_text("utf-8")
-    return robot_from_table(tomllib.loads(text), f"{name}.toml")
+    return tomllib.loads(package_files("robot_description").joinpath(f"{name}.toml").read_text("utf-8"))
 
 
 def robot_from_table(table: dict[str, Any], where: str) -> RobotModel:

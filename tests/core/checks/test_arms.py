@@ -12,7 +12,7 @@ from core.arrays import Floats
 from core.checks.arms import check_arms_of_waypoints
 from core.checks.rules import check_waypoints
 from core.findings import Finding, Severity
-from core.robot.arms import ARM_GAP, arm_gaps
+from core.robot.arms import ARM_GAP, arm_gaps, least_arm_gaps
 from core.robot.leg import strokes_from_foot
 from core.robot.model import RobotModel, load_robot
 from core.wire.executed_path import STEPS
@@ -69,6 +69,18 @@ def test_moves_between_waypoints_that_are_left_out_hold_no_smaller_gap() -> None
         margin = outcome.margin.margin
         assert margin is not None
         assert margin == pytest.approx(whole) if whole < ARM_GAP else margin >= ARM_GAP
+
+
+@pytest.mark.parametrize("robot", ["deltawalker", "hexapod"])
+def test_the_least_gaps_over_samples_are_those_of_all_bars(robot: str) -> None:
+    model = load_robot(robot)
+    rng = np.random.default_rng(3)
+    begin = rng.uniform(0.003, 0.016, (12, 1, model.leg_count, 3))
+    end = begin + rng.uniform(-0.007, 0.007, begin.shape)
+    steps = np.linspace(0.0, 1.0, 9)[:, None, None]
+    way = (1 - steps) * begin + steps * end
+    all_bars = [np.nan_to_num(arm_gaps(model, group), nan=np.inf).min(axis=0) for group in way]
+    assert np.array_equal(least_arm_gaps(model, way), all_bars)
 
 
 def test_robots_whose_motors_share_actuators_are_left_out() -> None:

@@ -1,0 +1,102 @@
+"""Chunks of an atlas, each evaluated in a worker process."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+
+from core.atlas.row import AtlasRow
+from core.atlas.space import AtlasSpace, space_from_table
+from core.errors import StateError
+from solver_jobs.workers.spawning import BACKGROUND_NICENESS
+from solver_jobs.workers.task_service import Task, TaskService
+from solver_jobs.workers.task_worker import Report, run_tasks
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """Some gaits of a space, which are evaluated together.
+
+    Args:
+        first: number of the first one.
+        count: how many.
+    """
+
+    first: int
+    count: int
+
+
+@dataclass(frozen=True, eq=False)
+class ChunkTask:
+    """What a process is given: a space as content, so that another version can read it too, and a chunk."""
+
+    space: dict[str, object]
+    chunk: Chunk
+
+
+class ChunkRun(Task[ChunkTask, float, list[AtlasRow]]):
+    """One chunk that is being evaluated."""
+
+    def unanswered(self, seconds: float) -> list[AtlasRow]:
+        """Nothing comes of a chunk that did not end.
+
+        Raises:
+            StateError: it was cancelled, or its process told nothing for too long.
+        """
+        if self.is_ending:
+            raise StateError("The run was ended.")
+        raise StateError("A worker of the atlas did not respond and was ended. Run again to go on.")
+
+
+class ChunkWorker(TaskService[ChunkRun]):
+    """Evaluates chunks in a process of its own, one after the other."""
+
+    def __init__(self) -> None:
+        super().__init__("worker of the atlas", run_atlas_worker, niceness=BACKGROUND_NICENESS)
+
+    def submit(
+        self, space: AtlasSpace, chunk: Chunk, progress: Callable[[float], object] = lambda share: None
+    ) -> ChunkRun:
+        """Begins a chunk.
+
+        Args:
+            space: what varies.
+            chunk: which gaits.
+            progress: told the share that is done, from a thread of the service's.
+        """
+        return self.ask(ChunkRun(ChunkTask(space.content(), chunk), progress))
+
+
+def run_atlas_worker(pipe: Connection, warm_up: None) -> None:
+    """Body of the process.
+
+    Args:
+        pipe: the worker's end.
+        warm_up: nothing.
+    """
+    run_tasks(pipe, _evaluated)
+
+
+def _evaluated(task: ChunkTask, report: Report) -> list[AtlasRow]:
+    return evaluated_chunk(task.space, task.chunk.first, task.chunk.count, report)
+
+
+def evaluated_chunk(
+    space: dict[str, object], first: int, count: int, report: Report = lambda share: True
+) -> list[AtlasRow]:
+    """Rows of a chunk, as any engine computes them; the same on one core or on many.
+
+    Args:
+        space: its content.
+        first: number of the first gait.
+        count: how many.
+        report: told the share that is done; False ends it.
+
+    Raises:
+        StateError: `report` ended it.
+    """
+    from solver_jobs.atlas.evaluate import evaluated
+
+    rows = evaluated(space_from_table(space, "the space"), first, count, report)
+    if len(rows) < count:
+        raise StateError("The run was ended.")
+    return rows

@@ -5,6 +5,9 @@ This is the public face. Importing it loads no solver; `solve_motion` loads it w
 
 from collections.abc import Callable
 
+from core.atlas.point import AtlasPoint
+from core.atlas.row import AtlasRow
+from core.atlas.space import AtlasSpace
 from core.gait.gait import Gait
 from core.motion.trajectory import Trajectory
 from core.patterns.problem import PatternProblem, PatternProgress, PatternResult
@@ -30,6 +33,7 @@ from solver_jobs.remedies.remedy import (
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
+from solver_jobs.workers.atlas_service import Chunk, ChunkRun, ChunkWorker, evaluated_chunk
 from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
 from solver_jobs.workers.fastest_search import FastestSearch, SearchStep, TriedGait, fastest_of
 from solver_jobs.workers.job import OPEN_STATES, Job, JobKind, JobState, result_sentence
@@ -51,6 +55,9 @@ __all__ = [
     "OPEN_STATES",
     "BatchSimulation",
     "BatchSimulator",
+    "Chunk",
+    "ChunkRun",
+    "ChunkWorker",
     "Evidence",
     "FastestSearch",
     "Frontier",
@@ -89,6 +96,9 @@ __all__ = [
     "completed_drawing",
     "completion_question",
     "completion_remedy",
+    "drawn_points",
+    "evaluated_chunk",
+    "evaluated_point",
     "fastest_of",
     "fastest_timing",
     "find_remedies",
@@ -182,6 +192,35 @@ def solve_pattern(
     return solve(problem, count=count, seconds=seconds, progress=progress)
 
 
+def drawn_points(space: AtlasSpace, first: int, count: int) -> list[AtlasPoint]:
+    """Some gaits of a space, by their numbers (see `solver_jobs.atlas.draw`).
+
+    Args:
+        space: what varies.
+        first: number of the first one, from 0.
+        count: how many.
+    """
+    from solver_jobs.atlas.draw import drawn_points as draw
+
+    return draw(space, first, count)
+
+
+def evaluated_point(space: AtlasSpace, number: int) -> tuple[PoseGait | None, AtlasRow]:
+    """One gait of a space, evaluated by itself in this process.
+
+    Args:
+        space: what varies.
+        number: of the gait, from 0.
+
+    Returns:
+        Its motion in mid-walk, where it is a gait for the robot's clock and solved, and its row.
+    """
+    with interrupts_held():
+        from solver_jobs.atlas.evaluate import evaluated_alone
+
+    return evaluated_alone(space, number)
+
+
 def shortest_problem(problem: PatternProblem) -> PatternProblem:
     """A pattern's problem in the shortest length that has a pattern, in this process.
 
@@ -197,6 +236,8 @@ def solve_poses(
     problem: PoseProblem,
     report: Callable[[PoseProgress], bool] = lambda progress: True,
     near: PoseGait | None = None,
+    *,
+    explain: bool = True,
 ) -> PoseResult:
     """Looks for the fastest pose gait of a problem in this process (see `solver_jobs.pose_gaits.solve`).
 
@@ -204,11 +245,12 @@ def solve_poses(
         problem: what is asked.
         report: told what is known; false ends the search.
         near: poses to begin with; None for several starts.
+        explain: whether to look for the reason where there is no gait, which takes as long again.
     """
     with interrupts_held():
         from solver_jobs.pose_gaits.solve import solve_poses as solve
 
-    return solve(problem, report, near)
+    return solve(problem, report, near, explain)
 
 
 def simulate(

@@ -5,7 +5,7 @@ import logging
 import sys
 from collections.abc import Sequence
 
-from app.cli.output import INTERRUPTED, drop, note, write
+from app.cli.common.output import INTERRUPTED, drop, note, write
 from app.cli.parser import make_parser
 from app.common.signals import Interrupted
 from core.errors import (

@@ -9,7 +9,7 @@ from app.bench.robot.moves import require_picture
 from app.bench.solvers.edits import COUNT as EDITS
 from app.bench.solvers.edits import SEED
 from app.bench.solvers.fastest_grid import MARGINS, STEPS, STOP_BOUNDS, Grid
-from app.cli.argument_types import foot_order, free_or, listed, number, whole
+from app.cli.common.argument_types import foot_order, free_or, listed, number, whole
 from core.errors import InputError
 from core.library.library import Group, library
 from core.pose_gaits.pose_problem import POSE_BOUNDS

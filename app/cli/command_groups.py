@@ -12,6 +12,7 @@ COMMAND_GROUPS = {
     },
     "Search": {
         "fastest": "Find the fastest walk on the robot.",
+        "atlas": "Evaluate thousands of gaits, and find the best.",
         "frontier": "Find the largest step of a gait, and what limits it.",
         "pattern": "Find the best footfall pattern.",
     },

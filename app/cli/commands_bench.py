@@ -12,8 +12,8 @@ from app.bench.robot.moves import bench_moves
 from app.bench.solvers.edits import bench_edits
 from app.bench.solvers.fastest_grid import bench_fastest_grid
 from app.cli.bench_options import GRID, MOVES, PHYSICS, grid_of, reports_of
+from app.cli.common.output import INTERRUPTED, end_on_signals, note, show
 from app.cli.fastest_search import end_progress, show_progress
-from app.cli.output import INTERRUPTED, end_on_signals, note, show
 from app.common.json import Json
 from core.errors import InputError
 

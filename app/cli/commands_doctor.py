@@ -13,7 +13,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from app.bridge.transport import serial_devices
-from app.cli.output import NOT_FIT, show
+from app.cli.common.output import NOT_FIT, show
 from app.common.version import VERSION
 from app.store.folder_lock import studio_address
 from app.store.gait_files import GaitFiles, default_data_folder, require_folder

@@ -8,9 +8,9 @@ from collections.abc import Callable
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 
+from app.cli.common.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
 from app.cli.fastest_search import search_lines, show_progress
 from app.cli.gait_options import named_gait
-from app.cli.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
 from app.common.json import Json
 from app.documents.gait_json import gait_content
 from app.export.way_files import write_pose_gait

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from app.cli.commands_gait import optimise
 from app.cli.commands_plan import poses_of
+from app.cli.common.output import end_on_signals, note, show, write
 from app.cli.gait_options import Method
-from app.cli.output import end_on_signals, note, show, write
 from app.documents.gait_json import gait_content, parse_gait
 from app.documents.trajectory_json import trajectory_content
 from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, export

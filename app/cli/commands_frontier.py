@@ -5,8 +5,8 @@ from argparse import Namespace
 
 import numpy as np
 
+from app.cli.common.output import INFEASIBLE, end_on_signals, show
 from app.cli.gait_options import Method, asked_gait, returns_anew
-from app.cli.output import INFEASIBLE, end_on_signals, show
 from app.common.json import Json
 from app.export.trajectory_files import write_trajectory
 from core.errors import InputError

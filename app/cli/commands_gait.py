@@ -8,8 +8,8 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
+from app.cli.common.output import end_on_signals, note, show
 from app.cli.gait_options import SOLVERS, Method, asked_gait
-from app.cli.output import end_on_signals, note, show
 from app.common.json import Json
 from app.documents.gait_json import gait_schema, sent_hash
 from app.export.trajectory_files import write_trajectory

@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 from app.cli.commands_gait import without_option
-from app.cli.output import INFEASIBLE, end_on_signals, show
+from app.cli.common.output import INFEASIBLE, end_on_signals, show
 from app.cli.pattern_options import asked_pattern
 from app.cli.pattern_text import CHANGE, STANCE, SWING, drawn_pattern
 from app.common.json import Json

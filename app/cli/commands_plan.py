@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
-from app.cli.output import NOT_FIT, note, show, verdict_lines, write
+from app.cli.common.output import NOT_FIT, note, show, verdict_lines, write
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory, write_waypoints
 from app.export.way_files import is_way_file, read_way_file

@@ -4,7 +4,7 @@ from argparse import Namespace
 from datetime import datetime
 from pathlib import Path
 
-from app.cli.output import show
+from app.cli.common.output import show
 from app.common.json import Json
 from app.store.backups import Backup, found_backups
 from app.store.database import DATABASE

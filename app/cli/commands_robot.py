@@ -12,7 +12,7 @@ from types import FrameType
 from typing import Any
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
-from app.cli.output import INTERRUPTED, NOT_FIT, end_on_signals, note, show, verdict_lines, write
+from app.cli.common.output import INTERRUPTED, NOT_FIT, end_on_signals, note, show, verdict_lines, write
 from app.cli.served_cameras import served_cameras
 from app.cli.streaming import run_of_file, stream
 from app.common.signals import ending_signals

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from app.cli.commands_plan import ROBOT, sending_of, trajectory_of
-from app.cli.output import NOT_FIT, end_on_signals, note, show, tally
+from app.cli.common.output import NOT_FIT, end_on_signals, note, show, tally
 from app.common.json import Json
 from app.common.signals import Interrupted
 from app.documents.gait_json import parse_gait

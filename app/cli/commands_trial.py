@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.cli.output import end_on_signals, note, show
+from app.cli.common.output import end_on_signals, note, show
 from app.common.json import Json
 from app.export.trajectory_files import read_text
 from app.trials.figures import movement_content, part_content

@@ -20,7 +20,10 @@ from app.cli import (
     commands_simulate,
     commands_trial,
 )
-from app.cli.argument_types import (
+from app.cli.atlas.options import add_atlas_commands
+from app.cli.bench_options import add_bench_options
+from app.cli.command_groups import grouped_commands
+from app.cli.common.argument_types import (
     add_robot,
     foot_order,
     free_or,
@@ -34,8 +37,6 @@ from app.cli.argument_types import (
     words_of,
     zero_or,
 )
-from app.cli.bench_options import add_bench_options
-from app.cli.command_groups import grouped_commands
 from app.cli.gait_options import Method
 from app.common.version import VERSION
 from app.emulator.faults import Fault
@@ -102,6 +103,8 @@ def make_parser() -> argparse.ArgumentParser:
     _frontier_options(command("frontier", commands_frontier.run_frontier, text))
     text = "The walk with the most millimetres a second of the robot's own time, as waypoints."
     _fastest_options(command("fastest", commands_fastest.run_fastest, text))
+    text = "Evaluate thousands of gaits: how fast, how steady, at what price; and use what was found."
+    add_atlas_commands(commands.add_parser("atlas", description=text, allow_abbrev=False))
     text = "The best footfall pattern: a transition between two states, or a periodic gait."
     _pattern_options(command("pattern", commands_pattern.run_pattern, text))
     _waypoint_options(command("waypoints", commands_plan.run_waypoints, "Motor waypoints of a trajectory."))

@@ -16,7 +16,7 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.delivery import HELD_STOP
 from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
 from app.bridge.stop_confirmation import STOP_LIMIT
-from app.cli.output import note, write
+from app.cli.common.output import note, write
 from app.common.signals import Interrupted, ignore_endings
 from app.emulator.emulated_robot import start_emulator
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun

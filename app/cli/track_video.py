@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from app.cameras.setup_schema import parse_setup
-from app.cli.output import note
+from app.cli.common.output import note
 from app.export.trajectory_files import read_text
 from app.videos.tracking_service import track_sentence
 from app.vision.tracking import track_video

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
-from app.cli.output import end_on_signals
+from app.cli.common.output import end_on_signals
 from app.cli.streaming import stream
 from app.common.signals import ending_signals
 from app.robot.recorded_bridge import RecordedRun

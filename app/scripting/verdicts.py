@@ -8,7 +8,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from app.cli.output import verdict_lines
+from app.cli.common.output import verdict_lines
 from app.scripting.gaits import Gait
 from app.scripting.html import Cell, paragraph, table
 from app.scripting.plans import Plan, plan

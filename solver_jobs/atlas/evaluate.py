@@ -74,6 +74,20 @@ def evaluated_points(
     return [rows[number] for number in sorted(rows)]
 
 
+def evaluated_alone(space: AtlasSpace, number: int) -> tuple[PoseGait | None, AtlasRow]:
+    """One gait by itself: its motion, where it is a solved gait for the robot's clock, and its row.
+
+    Args:
+        space: that it is of.
+        number: of the gait.
+    """
+    (point,) = drawn_points(space, number, 1)
+    (row,) = evaluated_points(space, [point])
+    if row.status is not RowStatus.SOLVED or space.kind is AtlasKind.DRAWN:
+        return None, row
+    return pose_gaits(space, [point])[0]
+
+
 def _batches(
     space: AtlasSpace, points: Sequence[AtlasPoint], rows: dict[int, AtlasRow]
 ) -> list[list[AtlasPoint]]:

@@ -17,7 +17,7 @@ from app.bench import BENCHMARKS
 from app.bench.common.measure import EndedEarly
 from app.bench.solvers.fastest_grid import Grid, bench_fastest_grid
 from app.cli.bench_options import grid_of
-from app.cli.output import INTERRUPTED
+from app.cli.common.output import INTERRUPTED
 from app.cli.parser import make_parser
 from app.common.signals import Interrupted
 from core.errors import InputError

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from app.cli.output import write
+from app.cli.common.output import write
 from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.closed_terminal import in_terminal
 from tests.support.patience import patient_robot

@@ -1,0 +1,1 @@
+"""The commands of atlases: run, front, export and open."""

@@ -1,0 +1,74 @@
+"""The options of the commands of atlases."""
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+
+from app.cli.atlas import commands
+from app.cli.common.argument_types import add_robot, whole
+from core.atlas.space import MOST_SEED
+
+DEFAULT_COUNT = 10_000
+MOST_COUNT = 10_000_000
+MOST_WORKERS = 256
+
+
+def add_atlas_commands(parser: argparse.ArgumentParser) -> None:
+    """Adds `run`, `front`, `export` and `open` to the command `atlas`."""
+    added = parser.add_subparsers(required=True, metavar="run|front|export|open", parser_class=type(parser))
+
+    def command(name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
+        one = added.add_parser(name, description=text, help=text, allow_abbrev=False)
+        one.set_defaults(run=run)
+        one.add_argument("--json", action="store_true", help="print one JSON object")
+        return one
+
+    _run_options(
+        command("run", commands.run_atlas_run, "Evaluate the gaits of a space; goes on with a file.")
+    )
+    _front_options(command("front", commands.run_atlas_front, "The gaits that no other one beats."))
+    text = "Write all gaits as CSV or Parquet."
+    export = command("export", commands.run_atlas_export, text)
+    export.add_argument("atlas", type=Path, metavar="ATLAS", help="atlas file")
+    export.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        metavar="FILE",
+        help="FILE.csv or FILE.parquet",
+    )
+    text = "Solve a gait again, say whether the answer differs, and write it as a gait file."
+    opened = command("open", commands.run_atlas_open, text)
+    opened.add_argument("atlas", type=Path, metavar="ATLAS", help="atlas file")
+    opened.add_argument("id", type=whole(0, MOST_COUNT), metavar="ID", help="number of the gait")
+    opened.add_argument(
+        "-o", "--output", type=Path, default=None, metavar="GAIT.json", help="gait file to write"
+    )
+
+
+def _run_options(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add_robot(parser, "default that of the space, else deltawalker")
+    add(
+        "--space",
+        type=Path,
+        default=None,
+        metavar="SPACE.toml",
+        help="what varies (default: a space of the robot)",
+    )
+    text = f"how many gaits the atlas is to have (default {DEFAULT_COUNT})"
+    add("--count", type=whole(1, MOST_COUNT), default=DEFAULT_COUNT, metavar="N", help=text)
+    text = "of the draw: the same seed gives the same gaits (default that of the space)"
+    add("--seed", type=whole(0, MOST_SEED), default=None, metavar="K", help=text)
+    text = "processes on this computer (default: one for each core)"
+    add("--workers", type=whole(1, MOST_WORKERS), default=None, metavar="N", help=text)
+    text = "ATLAS.sqlite, made or gone on with"
+    add("-o", "--output", type=Path, required=True, metavar="ATLAS.sqlite", help=text)
+
+
+def _front_options(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("atlas", type=Path, metavar="ATLAS", help="atlas file")
+    add("--x", default="margin", metavar="KEY", help="a figure or a parameter (default margin)")
+    add("--y", default="speed", metavar="KEY", help="another one (default speed)")

@@ -1,0 +1,1 @@
+"""What all commands use: printing results, and converting their arguments."""

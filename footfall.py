@@ -85,6 +85,7 @@ _HOMES = {
     "gaits": ("Gait", "gait", "gaits", "sequence"),
     "plans": ("Plan", "fastest", "frontier", "optimise", "plan"),
     "patterns": ("Pattern", "pattern"),
+    "remedies": ("Remedies", "Remedy", "remedies"),
     "verdicts": ("Verdict", "check"),
     "physics": ("Simulation", "simulate"),
     "sending": ("Run", "send"),

@@ -96,6 +96,16 @@ class Pattern:
     @property
     def stance(self) -> _Bools: ...
 
+class Remedy:
+    kind: str
+    label: str
+    sentence: str
+    caution: str
+    gait: Gait
+
+class Remedies(tuple[Remedy, ...]):
+    explanation: str
+
 class Verdict:
     @property
     def passed(self) -> bool: ...
@@ -149,6 +159,7 @@ def plan(source: _Source, *, method: str = "nlp", robot: str | None = None) -> P
 def pattern(
     *, legs: int, samples: int, start: str | None = None, end: str | None = None, **options: Any
 ) -> Pattern: ...
+def remedies(source: Plan | Gait | str | Path, **options: Any) -> Remedies: ...
 def check(source: _Source) -> Verdict: ...
 def simulate(source: _Source, **options: Any) -> Simulation: ...
 def send(

@@ -263,11 +263,11 @@ def optimise(source: str | Path | Gait, **options: Any) -> Plan:
         >>> plan.status, plan.waypoints.shape[1:]
         ('solved', (4, 3))
     """
-    document, asked = _drawn("optimise", source, ("remedy",), options)
+    document, asked = drawn_document("optimise", source, ("remedy",), options)
     return _optimised(Gait(document), asked.method, asked.gait)
 
 
-def _drawn(
+def drawn_document(
     command: str, source: str | Path | Gait, without: tuple[str, ...], options: dict[str, Any]
 ) -> tuple[Document, Namespace]:
     """A gait that a solver can be asked for, with what is changed of it, and the options of its command.
@@ -375,7 +375,7 @@ def frontier(source: str | Path | Gait, **options: Any) -> dict[str, Any]:
         >>> ff.frontier("walk", method="live")["max_step"] > 0.01
         True
     """
-    document, asked = _drawn("frontier", source, (), options)
+    document, asked = drawn_document("frontier", source, (), options)
     return frontier_content(asked.gait, frontier_search(document, asked).run())
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure  # type: ignore[import-not-found, unused-ignore]
 
     from app.scripting.plans import Plan
+
+DOTS = 80
+"""Of a figure in a notebook, an inch."""
 
 
 def plan_figure(plan: Plan) -> Figure:
@@ -30,7 +34,16 @@ def plan_figure(plan: Plan) -> Figure:
             "plot() needs matplotlib; install the program with the extra [notebook], or matplotlib itself.",
             "matplotlib",
         ) from error
-    figure = Figure(figsize=(9, 6), layout="constrained")
+
+    class PlanFigure(Figure):  # type: ignore[misc, unused-ignore]
+        """A figure that a notebook shows without pyplot."""
+
+        def _repr_png_(self) -> bytes:
+            picture = BytesIO()
+            self.savefig(picture, format="png", dpi=DOTS)
+            return picture.getvalue()
+
+    figure = PlanFigure(figsize=(9, 6), layout="constrained")
     lift, margin, strokes = figure.subplots(3, 1, sharex=True)
     times, names = motion.times, [f"foot {foot + 1}" for foot in range(plan.robot.legs)]
     heights = (motion.feet_world[..., 2] - motion.feet_world[..., 2].min()) * 1000

@@ -1,6 +1,7 @@
 """Progress of what takes seconds: a bar in a terminal or a notebook, where tqdm is installed."""
 
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -9,7 +10,10 @@ from typing import Any
 def _bar(what: str) -> Any:
     """A bar from 0 to 100 %; None where tqdm is not installed, or nobody watches."""
     try:
-        from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+        with warnings.catch_warnings():
+            # Without ipywidgets a notebook gets a bar of text, and nobody has to be warned of that.
+            warnings.simplefilter("ignore")
+            from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
     except ImportError:
         return None
     is_watched = sys.stderr.isatty() or "ipykernel" in sys.modules
@@ -26,15 +30,19 @@ def progress_bar(what: str) -> Iterator[Callable[[float], bool]]:
     Yields:
         A function that takes the share that is done, 0 to 1, and is always true: go on.
     """
-    bar = _bar(what)
+    bars: list[Any] = []
 
     def tell(share: float) -> bool:
-        if bar is not None:
-            bar.update(max(share * 100 - bar.n, 0.0))
+        if not bars:
+            # Made when there is something to tell, so that what is said before has a line of its own.
+            bars.append(_bar(what))
+        if bars[0] is not None:
+            bars[0].update(max(share * 100 - bars[0].n, 0.0))
         return True
 
     try:
         yield tell
     finally:
-        if bar is not None:
-            bar.close()
+        for bar in bars:
+            if bar is not None:
+                bar.close()

@@ -43,6 +43,10 @@ SEAMS = {
     ),
     "mcap": ("tests/app/runs/test_runs.py",),
     "opencv-python-headless": ("tests/app/vision",),
+    "ipykernel, matplotlib, nbclient, nbformat": (
+        "tests/repository/test_notebooks.py",
+        "tests/app/scripting/test_values.py",
+    ),
     "axe-playwright-python, playwright": ("tests/app/export/test_export_page.py",),
 }
 

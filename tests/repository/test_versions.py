@@ -19,7 +19,7 @@ MACHINES = (("linux", "x86_64"), ("linux", "aarch64"), ("darwin", "arm64"), ("wi
 PLATFORMS = [
     {"sys_platform": system, "platform_machine": machine, "python_full_version": f"{python}.0"}
     for system, machine in MACHINES
-    for python in ("3.11", "3.12", "3.13")
+    for python in ("3.11", "3.12", "3.13", "3.14")
 ]
 CPYTHON = {"platform_python_implementation": "CPython"}
 

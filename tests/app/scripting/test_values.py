@@ -77,6 +77,9 @@ def test_an_infeasible_plan_says_why_and_has_no_arrays() -> None:
         (lambda: ff.frontier(ff.gait("fast-c-gait")), ff.InputError, "there is nothing to optimise"),
         (lambda: ff.simulate("walk-manual-0", stop_bound=0.5), ff.InputError, "no option “stop_bound”"),
         (lambda: ff.optimise("walk", remedy=1), ff.InputError, "no option “remedy”"),
+        (lambda: ff.remedies("walk", remedy=1), ff.InputError, "no option “remedy”"),
+        (lambda: ff.remedies("walk-manual-0"), ff.InputError, "walk-manual-0"),
+        (lambda: ff.remedies(plan_of_walk(), step=0.01), ff.InputError, "options are for gaits"),
         (lambda: ff.gait(None), ff.InputError, "A gait is named by its id"),
         (lambda: ff.send("walk-manual-0", to="emulator", by=None), ff.InputError, "name of the person"),
     ],
@@ -144,6 +147,23 @@ def test_the_lists_show_themselves_as_tables() -> None:
     assert "motor" in ff.robot()._repr_html_()
 
 
+def test_remedies_are_gaits_that_walk() -> None:
+    plan = ff.plan("textbook-trot", method="live")
+    found = ff.remedies(plan)
+    assert len(found) > 1
+    assert ff.optimise(found[0].gait, method="live").status == "solved"
+    assert "<table>" in found._repr_html_()
+    assert repr(found).startswith("1. ")
+    assert ff.remedies("walk", step=0.05)[0].kind == "step"
+
+
+def test_a_gait_with_a_motion_needs_no_remedy() -> None:
+    found = ff.remedies("walk")
+    assert (len(found), found.explanation) == (0, "This gait has a motion; it needs no remedy.")
+    assert ff.remedies(plan_of_walk()).explanation == found.explanation == repr(found)
+    assert found.explanation in found._repr_html_()
+
+
 def test_a_sequence_is_planned() -> None:
     tour = ff.sequence(("walk", 2), "rotate", name="Tour")
     plan = ff.plan(tour, method="live")
@@ -168,7 +188,9 @@ def test_plots_need_matplotlib_and_say_so() -> None:
         with pytest.raises(ff.InputError, match="needs matplotlib"):
             plan.plot()
     else:
-        assert len(plan.plot().axes) == 3
+        figure = plan.plot()
+        assert len(figure.axes) == 3
+        assert figure._repr_png_().startswith(b"\x89PNG"), "a notebook shows it without pyplot"
 
 
 def test_a_solver_that_gives_up_is_not_called_solved(monkeypatch: pytest.MonkeyPatch) -> None:

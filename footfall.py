@@ -84,8 +84,9 @@ if __name__ == _NAME and not any(
 _HOMES = {
     "gaits": ("Gait", "gait", "gaits", "sequence"),
     "plans": ("Plan", "fastest", "frontier", "optimise", "plan"),
-    "patterns": ("Pattern", "pattern"),
+    "patterns": ("Pattern", "pattern", "transition"),
     "remedies": ("Remedies", "Remedy", "remedies"),
+    "segments": ("Segments", "segments"),
     "verdicts": ("Verdict", "check"),
     "physics": ("Simulation", "simulate"),
     "sending": ("Run", "send"),

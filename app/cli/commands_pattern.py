@@ -50,7 +50,7 @@ def solved_pattern(options: Namespace) -> tuple[PatternProblem, PatternResult, s
     if options.shortest:
         problem = shortest_problem(problem)
     result = _solved(problem, options)
-    return problem, result, _failure(problem, result, options.seconds)
+    return problem, result, pattern_failure(problem, result, options.seconds)
 
 
 def _solved(problem: PatternProblem, options: Namespace) -> PatternResult:
@@ -76,7 +76,7 @@ def _solved(problem: PatternProblem, options: Namespace) -> PatternResult:
             left.set()
 
 
-def _failure(problem: PatternProblem, result: PatternResult, seconds: float) -> str | None:
+def pattern_failure(problem: PatternProblem, result: PatternResult, seconds: float) -> str | None:
     """Why there is no checked answer; None where there is one."""
     broken = {
         rule

@@ -31,6 +31,7 @@ from core.library.sequence import sequence_gait
 from core.robot.model import load_robot
 
 _FORMS = {".json": ExportFormat.JSON, ".svg": ExportFormat.SVG, ".png": ExportFormat.PNG}
+_PHASES = ".phases.json"
 _FILES = (".csv", ".npz", ".json")
 
 
@@ -115,10 +116,11 @@ class Gait:
         return Gait(asked if name is None else replace(asked, name=name))
 
     def save(self, path: str | Path) -> Path:
-        """Writes the document, or a picture of its footfalls.
+        """Writes the document, its phases, or a picture of its footfalls.
 
         Args:
-            path: with the suffix .json, .svg or .png; SI units.
+            path: `X.json` for the document, `X.phases.json` for contact and phase durations of each foot,
+                `.svg` or `.png` for a picture; SI units.
 
         Returns:
             The path.
@@ -132,10 +134,11 @@ class Gait:
             'walk.json'
         """
         file = Path(path)
-        form = _FORMS.get(file.suffix)
+        form = ExportFormat.PHASES if file.name.endswith(_PHASES) else _FORMS.get(file.suffix)
         if form is None:
+            known = ", ".join((*_FORMS, _PHASES))
             raise InputError(
-                f"{file.name}: a gait is written as {', '.join(_FORMS)}. Its motion is written by its plan: "
+                f"{file.name}: a gait is written as {known}. Its motion is written by its plan: "
                 "footfall.plan(gait).save(…).",
                 "path",
             )

@@ -69,6 +69,11 @@ class Simulation:
         return self.motion.body_world
 
     @property
+    def feet(self) -> Floats:
+        """(n, legs, 3) feet in the world over time, m."""
+        return self.motion.feet_world
+
+    @property
     def findings(self) -> list[dict[str, Any]]:
         """What the physics found: rule, severity, sentence, value and limit in SI."""
         return list(self.figures["findings"])

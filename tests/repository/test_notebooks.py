@@ -20,7 +20,8 @@ LISTED = re.compile(r"^\| \[[^\]]+\]\(notebooks/(\w+)\.ipynb\) \| [^|]{10,} \|$"
 PLACES = re.compile(r"/(?:home|root|tmp|work|Users|var)/|[A-Z]:\\|[0-9]{4}-[0-9]{2}-[0-9]{2}T")
 """Paths of a computer, and times of day."""
 MOST_BYTES, CELLS = 150_000, range(6, 16)
-QUICK = ("02_why_infeasible",)
+COUNT = 10
+QUICK = ("06_limbs_held_up", "10_export_for_others")
 """The notebooks that `python -m tests --all` runs."""
 ALL_SECONDS = 300
 """Of all notebooks together, on a machine that does nothing else."""
@@ -48,6 +49,7 @@ def prose_of(cells: list[Cell]) -> str:
 
 def test_each_notebook_is_listed_with_a_line_and_stands_in_the_order_of_the_files() -> None:
     assert tuple(LISTED.findall(PAGE)) == NAMES
+    assert len(NAMES) == COUNT
     assert {path.name for path in FOLDER.iterdir()} == {path_of(name).name for name in NAMES}
 
 

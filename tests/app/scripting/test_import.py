@@ -25,7 +25,7 @@ run = ff.send(plan, to="emulator", by="Ada")
 print(run.measured.shape)
 """
 FUNCTIONS = sorted(name for name in ff.__all__ if inspect.isfunction(getattr(ff, name)))
-VALUES = ("Gait", "Pattern", "Plan", "Remedy", "Robot", "Run", "Simulation", "Trial", "Verdict")
+VALUES = ("Gait", "Pattern", "Plan", "Remedy", "Robot", "Run", "Segments", "Simulation", "Trial", "Verdict")
 SIZES = re.compile(r"\(\w+, |\bm\b|\bmm\b|\bcm\b|\bs\b|SI\b|units|metres")
 
 

@@ -69,7 +69,7 @@ def test_an_infeasible_plan_says_why_and_has_no_arrays() -> None:
         (lambda: ff.send("hexapod-wave", to="emulator", by="Ada"), ff.FootfallError, "only the DeltaWalker"),
         (lambda: ff.send("walk-manual-0", to="/dev/nothing", by="Ada"), ff.FootfallError, "/dev/nothing"),
         (lambda: ff.sequence("walk", "hexapod-wave"), ff.InputError, "a sequence moves one robot"),
-        (lambda: ff.gait("walk").save("walk.txt"), ff.InputError, "a gait is written as .json, .svg, .png"),
+        (lambda: ff.gait("walk").save("walk.txt"), ff.InputError, "written as .json, .svg, .png, .phases"),
         (lambda: plan_of_walk().save("walk.xls"), ff.InputError, "a plan is written as .csv"),
         (lambda: ff.show(ff.plan(np.full((2, 4, 3), 0.0055))), ff.InputError, "waypoints alone"),
         (lambda: ff.trial("nowhere.csv", expect=5), ff.FootfallError, "nowhere.csv"),
@@ -77,6 +77,18 @@ def test_an_infeasible_plan_says_why_and_has_no_arrays() -> None:
         (lambda: ff.frontier(ff.gait("fast-c-gait")), ff.InputError, "there is nothing to optimise"),
         (lambda: ff.simulate("walk-manual-0", stop_bound=0.5), ff.InputError, "no option “stop_bound”"),
         (lambda: ff.optimise("walk", remedy=1), ff.InputError, "no option “remedy”"),
+        (lambda: ff.segments("walk"), ff.InputError, "Foot 1 would step"),
+        (lambda: ff.segments("fast-walk"), ff.InputError, "it has no segments"),
+        (lambda: ff.segments("walk-manual-0").changed(5, []), ff.InputError, "no foot 5"),
+        (lambda: ff.segments("walk-manual-0").changed(1, ["Push A"]), ff.InputError, "given 1 segments"),
+        (lambda: ff.transition("walk", "amble", start=99, end=0), ff.InputError, "sample 100"),
+        (lambda: ff.transition("walk", "hexapod-wave", start=0, end=0), ff.InputError, "different robots"),
+        (lambda: ff.pattern(legs=5, samples=12, periodic=True).gait(), ff.InputError, "No robot has 5"),
+        (
+            lambda: ff.pattern(legs=6, samples=20, start="111001", end="011011").gait(),
+            ff.InputError,
+            "footfall.transition joins",
+        ),
         (lambda: ff.remedies("walk", remedy=1), ff.InputError, "no option “remedy”"),
         (lambda: ff.remedies("walk-manual-0"), ff.InputError, "walk-manual-0"),
         (lambda: ff.remedies(plan_of_walk(), step=0.01), ff.InputError, "options are for gaits"),
@@ -127,6 +139,7 @@ def test_variations_say_which_share_walks() -> None:
     assert result.walks
     assert result.share == 1.0
     assert "100 % of the variations walk" in repr(result)
+    assert result.feet.shape == (len(result.times), 4, 3)
 
 
 def test_a_gait_is_changed_and_stays_as_it_is() -> None:
@@ -145,6 +158,56 @@ def test_the_lists_show_themselves_as_tables() -> None:
     assert "fast-c-gait" in gaits._repr_html_()
     assert "strokes 0.5 to 19.5 mm" in repr(ff.robot())
     assert "motor" in ff.robot()._repr_html_()
+
+
+def test_a_cycle_becomes_a_gait_of_a_robot_with_as_many_legs() -> None:
+    found = ff.pattern(legs=6, samples=18, periodic=True, locked="3:swing")
+    five = found.gait("Five limbs", step=0.008)
+    assert (five.name, five.robot) == ("Five limbs", "hexapod")
+    assert not five.stance[2].any()
+    assert ff.optimise(five, method="live").status == "solved"
+    assert found.gait(robot="hexapod").step[:2] == pytest.approx([0.010 / np.sqrt(2)] * 2)
+
+
+def test_a_transition_joins_two_gaits() -> None:
+    walk, amble = ff.gait("walk"), ff.gait("amble")
+    found = ff.transition("walk", amble, start=22, end=22)
+    assert found.status == "optimal"
+    assert (found.stance[:, 0] == walk.stance[:, 22]).all()
+    assert (found.stance[:, -1] == amble.stance[:, 22]).all()
+    joined = found.gait("Both")
+    assert joined.name == "Both"
+    assert joined.stance[:, 22 : 22 + found.stance.shape[1]].tolist() == found.stance.tolist()
+    assert ff.optimise(joined, method="live").status == "solved"
+
+
+def test_a_transition_that_is_too_short_says_what_would_do() -> None:
+    found = ff.transition("walk", "amble", start=8, end=8, samples=4)
+    assert (found.status, found.pattern) == ("infeasible", [])
+    assert "It works with" in " ".join(found.explanation)
+    with pytest.raises(ff.InfeasibleError, match="There is no pattern"):
+        found.gait()
+
+
+def test_a_segment_table_is_changed_and_becomes_a_gait() -> None:
+    table = ff.segments("walk-manual-0")
+    assert (len(table.rows), table.count, table.samples) == (4, 11, 5)
+    assert table.vocabulary["Step A"] == ("Home-None", "Step-Base")
+    assert ff.plan(table.gait()).waypoints == pytest.approx(ff.plan("walk-manual-0").waypoints)
+    swapped = table.changed(2, table.rows[2]).changed(3, table.rows[1]).gait("Swapped")
+    assert (swapped.name, swapped.order) == ("Swapped", (2, 3, 4, 1))
+    assert ff.plan(swapped).status == "given"
+    assert "Push A" in table._repr_html_()
+
+
+def test_a_drawn_gait_has_the_table_that_implies_its_footfalls() -> None:
+    drawn = ff.gait("walk", phase_knots=6, closing_knots=6)
+    assert (ff.segments(drawn).gait().stance == drawn.stance).all()
+
+
+def test_a_phase_list_leads_back_to_the_same_footfalls(tmp_path: Path) -> None:
+    walk = ff.gait("walk")
+    assert (ff.gait(walk.save(tmp_path / "walk.phases.json")).stance == walk.stance).all()
 
 
 def test_remedies_are_gaits_that_walk() -> None:

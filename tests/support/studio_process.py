@@ -141,9 +141,10 @@ def running_studio(
     cwd: Path = PROJECT,
     environment: dict[str, str] | None = None,
     program: str = PATIENT,
+    python: str = sys.executable,
 ) -> Iterator[StudioProcess]:
     """A studio on a free port; ended by SIGTERM, and its exit status must be 0."""
-    command = [sys.executable, "-m", program, "serve", "--port", "0", "--data", str(data), "--no-browser"]
+    command = [python, "-m", program, "serve", "--port", "0", "--data", str(data), "--no-browser"]
     descriptor, name = tempfile.mkstemp(prefix="footfall-said-", suffix=".txt")
     said = Path(name)
     process = subprocess.Popen(

@@ -10,6 +10,7 @@ from contextlib import closing
 from pathlib import Path
 
 from app.atlas.atlas_file import AtlasFile
+from app.atlas.dask_engine import DaskEngine
 from app.atlas.export import export_atlas, table_row
 from app.atlas.front import UNITS, atlas_front, value_of
 from app.atlas.opening import OpenedGait, opened_gait, opened_point
@@ -182,7 +183,8 @@ def _from_stance_words(opened: OpenedGait, walk: PoseGait) -> str:
 
 
 def _engine(options: Namespace) -> Engine:
-    return LocalEngine(options.workers or max(os.cpu_count() or 1, 1))
+    workers = options.workers or max(os.cpu_count() or 1, 1)
+    return LocalEngine(workers) if options.dask is None else DaskEngine(options.dask, workers)
 
 
 def _words(row: AtlasRow, parameters: Json, key: str) -> str:

@@ -63,6 +63,8 @@ def _run_options(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=whole(0, MOST_SEED), default=None, metavar="K", help=text)
     text = "processes on this computer (default: one for each core)"
     add("--workers", type=whole(1, MOST_WORKERS), default=None, metavar="N", help=text)
+    text = "work on a Dask cluster: “local”, or the scheduler's address such as tcp://node1:8786"
+    add("--dask", default=None, metavar="local|ADDRESS", help=text)
     text = "ATLAS.sqlite, made or gone on with"
     add("-o", "--output", type=Path, required=True, metavar="ATLAS.sqlite", help=text)
 

@@ -59,7 +59,7 @@ function approvalBox({ approval }) {
 
 function whyNotCheck({ view, pending }) {
   if (!view) return "No gait is selected.";
-  if (pending.length) return "The last edit is not accepted yet.";
+  if (pending.length) return "The studio is still saving your last edit.";
   if (view.plan?.live?.status === "infeasible") return "There is no motion to check. The Design step shows what is wrong and suggests changes.";
   if (!view.plan || view.plan.refusal) return view.plan?.refusal?.sentence ?? "There is no plan to check. Optimise first.";
   return null;

@@ -22,7 +22,7 @@ const AXIS = "The timing of the robot differs from the timing of the plan. "
 function whyNot(state) {
   const { view, pending } = state;
   if (!view) return "No gait is selected.";
-  if (pending.length) return "The last edit is not accepted yet.";
+  if (pending.length) return "The studio is still saving your last edit.";
   if (simulationJob(state)) return "Wait for the running simulation of this gait, or cancel it.";
   if (!view.plan?.waypoints_hash) return view.plan?.refusal?.sentence ?? "There is no plan to simulate. Optimise first.";
   return null;

@@ -16,7 +16,7 @@ const HELP = "Makes a gait with the same foot order and step, timed for the robo
 const FREELY = "Changes this gait into a drawn gait with the same foot order and step. "
   + "You can then paint the timeline";
 const BROKEN_OFF = "The search stopped early. Try again when the studio answers.";
-const MORE = "The gain in speed is larger with more iterations, a longer step or a longer stop bound.";
+const MORE = "The gait gains more speed with more iterations of the gait, a longer step or a longer stop bound.";
 const FEW = "This gait has fewer than three iterations. Its values in mid-walk (column “Now”) are the mean "
   + "over all iterations.";
 const USE = "Replaces the drawn gait with the gait for the robot's clock. Undo restores the drawn gait";

@@ -99,7 +99,7 @@ const DEGREES = 180 / Math.PI;
 const POSE_NUMBERS = [
   { label: "Sway", name: "Sway", unit: "°", min: 0, max: 40, step: 1, decimals: 1, help: "How far the body may turn to the left and right of its course. Sway makes a gait faster, but the soles of the feet turn on the ground. Sway was not tested with flat shoes yet",
     read: ({ poses }) => (poses ? (poses.sway ?? 0) * DEGREES : null), write: (document, value) => ({ ...document, poses: { ...document.poses, sway: value / DEGREES } }) },
-  { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2, help: "How far a standing foot may slide from its foothold during a move. A foot slides a little, because all motors move in proportion", ...limit("slip") },
+  { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2, help: "How far a standing foot may slide from its foothold during a move. A foot slides a little: all motors start and end a move together, so the foot leaves its exact path", ...limit("slip") },
   { label: "Shoe distance", name: "Shoe distance", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 1, help: "Least distance between the centres of two feet. A shoe is 25 mm wide", ...limit("shoe_distance") },
   { label: "Arm distance", name: "Arm distance", unit: "mm", min: 0, max: 10, step: 0.5, decimals: 1, help: "Least distance between the arms of neighbouring legs. With 0 mm the arms may touch", ...limit("arm_distance") },
 ];
@@ -126,8 +126,8 @@ export function hasField({ poses, timeline }, name) {
 
 const MORE_CHOICES = [
   { label: "Orientation", name: "Orientation", options: [["FB", "FB"], ["FBS", "FBS"]],
-    help: "Forward direction of the gait. FB: the diagonal between x and y, with feet in front and at the "
-      + "back. FBS: the x axis, with feet in front, at the sides and at the back. "
+    help: "Forward direction of the gait. FB: the robot walks along the diagonal between x and y, and has "
+      + "feet in front and at the back. FBS: the robot walks along x, and has feet in front, at the sides and at the back. "
       + "The orientation also changes the names of the feet and the effect of Mirror. "
       + "The step of the gait does not change",
     read: ({ orientation }) => orientation, write: (document, value) => ({ ...document, orientation: value }) },

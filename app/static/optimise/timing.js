@@ -82,7 +82,7 @@ const NO_WHOLE = "Each phase must last a whole number of samples. "
   + "No shorter timing with whole samples was found that keeps all limits.";
 /** What to do where the timing itself does not help. */
 const INSTEAD = {
-  faster: "Try “Faster on the robot”, which makes the same gait with a timing for the robot's firmware.",
+  faster: "Try “Faster on the robot”. It keeps the foot order and the step, and adapts the moves to the robot's firmware.",
   fewer: "Fewer waypoints make the robot faster. In Check & approve, merge waypoints within 1 mm or choose "
     + "a longer stop bound.",
 };

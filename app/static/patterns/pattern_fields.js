@@ -84,7 +84,7 @@ export function patternFields(store, problem, lock) {
   };
 }
 
-const HELP = { walks: "takes steps", held: "held up, for another task", broken: "cannot move, and is held up", stands: "stays on the ground" };
+const HELP = { walks: "takes steps", held: "stays in the air, free for another task", broken: "cannot move, and stays in the air", stands: "stays on the ground" };
 
 const sameLength = (own, count, build) => {
   if (own.length === count) return own;

@@ -24,8 +24,8 @@ export const RULES = [
 /** What a change costs; the pattern of the smallest sum is best. */
 export const WEIGHTS = [
   { weight: "sample_changes", name: "A moment at which any limb changes", usual: 1000, help: "Objective of the footfall thesis" },
-  { weight: "limb_changes", name: "A change of one limb", usual: 1, help: "With the usual number, this "
-    + "decides only between patterns that are otherwise equal" },
+  { weight: "limb_changes", name: "A change of one limb", usual: 1, help: "With the usual number 1, "
+    + "fewer changes of single limbs matter only between patterns that are otherwise equal" },
   { weight: "drawing", name: "A cell that differs from my drawing", usual: 10, help: "Counts in Complete, "
     + "and while “Keep my drawing if possible” is on" },
 ];

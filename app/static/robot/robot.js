@@ -30,7 +30,7 @@ const bound = (limit) => (limit === null || limit === undefined ? "a few seconds
 const stopSentence = (limit) => `Stop takes effect within ${bound(limit)}. The power switch is the emergency stop.`;
 const STOP_HELP = "The studio sends Stop over the cable. The robot first ends its present move. "
   + "The robot stops at the latest after the time given here.";
-const CLEAR_HELP = "Confirm that you have seen the stop or the fault. The robot does not move";
+const CLEAR_HELP = "Confirm that you have seen the stop or the fault. This button does not move the robot";
 
 function act(store, verb, extra = () => ({})) {
   return attempt(async () => {

@@ -128,7 +128,7 @@ function axisPart(sheet, axis, { run, refuse, strokes }) {
         },
       }),
       deletion(`Delete the ${what} ${name}`, user ? `The segment “${user}” uses “${name}”. `
-        + `Change or delete the segment first.` : last ? `The last ${what} cannot be deleted.` : null,
+        + `Change or delete that segment before you delete the ${what}.` : last ? `The last ${what} cannot be deleted.` : null,
         () => run({ change: withDefinitions((words) => ({ [axis]: without(words[axis], name) })), label: `Delete ${what} ${name}` }), refuse));
   });
   const add = h("button", { class: "link", text: `Add a ${what}`, on: {

@@ -66,7 +66,7 @@ export function createSegmentSheetGrid(grid, addLink) {
       parts.forEach(({ element, head, cells }, row) => {
         const repeats = row >= sheet.from - 1 && row < sheet.to;
         element.toggleAttribute("data-repeats", repeats);
-        setAttribute(head, "title", row >= sheet.count ? "Between two iterations" : repeats ? "This segment repeats in every iteration" : row < sheet.from - 1 ? "This segment is walked once, at the beginning of the gait" : "This segment is walked once, at the end of the gait");
+        setAttribute(head, "title", row >= sheet.count ? "Between two iterations" : repeats ? "Every iteration of the gait walks this segment once" : row < sheet.from - 1 ? "This segment is walked once, at the beginning of the gait" : "This segment is walked once, at the end of the gait");
         cells.forEach((cell, foot) => drawCell(cell, sheet, row, foot, found.get(`${row},${foot}`)));
       });
       return isNew;

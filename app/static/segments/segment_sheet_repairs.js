@@ -16,7 +16,7 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   const own = Array.from({ length: sheet.legs }, (_, one) => one).find((one) => ownRow(sheet, one) === foot);
   const words = names.join(", ");
   const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${capital(range(first, names.length))} to ${words}`;
-  const help = inserted ? `Inserts ${range(first, names.length)}, in which the other feet wait` : `Changes only foot ${own + 1}, and also the link if necessary`;
+  const help = inserted ? `Inserts ${range(first, names.length)}, in which the other feet wait` : `Changes foot ${own + 1}, and the link if it has to change too`;
   const mended = segmentSheetOf({ ...document, segment_table: table });
   const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
   return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${lowered(label)}`, kept: [] } };

@@ -70,7 +70,7 @@ function exactParts(store) {
     if (!isSequence(view?.document)) return;
     const busy = jobs.some((job) => job.gait === view.id && jobIsOn(job)) && "The parts are being optimised. Wait for these jobs or cancel them.";
     const open = view.plan.parts.some(({ source }) => ["live", "draft"].includes(source));
-    setAllowed(button, busy || (pending.length ? "The last edit is not accepted yet." : open ? null : ALL_EXACT), "Optimises each part that has no optimised motion yet");
+    setAllowed(button, busy || (pending.length ? "The studio is still saving your last edit." : open ? null : ALL_EXACT), "Optimises each part that has no optimised motion yet");
   });
   return h("div", { class: "sequence-only" }, button, h("p", { class: "why", text: OPTIMISE }));
 }

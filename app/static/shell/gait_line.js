@@ -10,7 +10,7 @@ const STATES = {
   outside: { mark: "bad", sentence: "" },
   infeasible: { mark: "bad", sentence: "No motion of this gait keeps every limit" },
   edited: { mark: "edited", sentence: "Unsaved changes" },
-  timed: { mark: "good", sentence: "The time of this gait on the robot is known" },
+  timed: { mark: "good", sentence: "The studio has computed how long the robot takes for this gait" },
   unknown: { mark: "unknown", sentence: "The time of this gait on the robot is not known yet" },
 };
 

@@ -47,7 +47,7 @@ const GROUPS = {
   "Lists and toolbars": [
     ["↑ ↓", "In a list: go to the previous or next line. Home and End: go to the first or last line"],
     ["← →", "In a toolbar: go to the previous or next button. On the tabs: go to the previous or next tab"],
-    ["Enter", "In a list: open the line. On Send to robot: hold Enter for one second to send the gait"],
+    ["Enter", "In a list: open the selected entry. On Send to robot: hold Enter for one second to send the gait"],
     ["Double click", "On a gait in the list: change its name"],
   ],
   "Touch": [

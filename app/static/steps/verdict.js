@@ -11,7 +11,7 @@ import { openStep } from "./steps.js";
 
 const MARGIN_HELP = "Stability margin: how far the balance point stays inside the area between "
   + "the feet on the ground. Below 0 the robot tips. "
-  + "The balance point of a solved motion is the centre of pressure. "
+  + "For a motion that the optimiser found, the balance point is the centre of pressure. "
   + "The balance point of any other motion is the centre of mass.";
 const LIVE_HELP = "A live plan is computed again after every edit. "
   + "The footholds and the body height of a live plan are set in advance, not optimised.";
@@ -61,7 +61,7 @@ function simulatedPart(state) {
   const figure = mark === "none" ? NONE : variations ? `${walking}/${variations.count}` : word;
   if (mark === "none") return { mark, figure, help: "Not simulated yet." };
   if (mark === "old") return { mark, figure, help: "The gait was simulated before this edit." };
-  const share = variations ? ` The robot walks in ${walking} of ${variations.count} variations.` : "";
+  const share = variations ? ` With slightly changed conditions, the robot walked in ${walking} of ${variations.count} simulations.` : "";
   return { mark, figure, help: `${capital(word)}.${share}` };
 }
 

@@ -17,7 +17,7 @@ function leftOut({ timeline }, [foot, sample], block) {
   const feet = foot + block.length - timeline.feet.length;
   const samples = sample + block[0].length - timeline.feet[0].length;
   const parts = [samples > 0 && `${counted(samples, "sample")} after the end`, feet > 0 && `${counted(feet, "row")} below the last foot`].filter(Boolean);
-  return parts.length ? `The pasted cells did not fit. Left out: ${parts.join(" and ")}.` : null;
+  return parts.length ? `Some of the copied cells did not fit and were not pasted: ${parts.join(" and ")}.` : null;
 }
 
 const focusOnGrid = () => Boolean(globalThis.document.activeElement?.closest("#timeline [role=gridcell]"));

@@ -19,7 +19,7 @@ export const comparisonApi = {
 };
 
 const HELP = "Time, and mean movement of the feet, from the first to the last frame. "
-  + "The angle is the direction of the movement on the platform. "
+  + "The angle is the direction of the movement on the platform where the robot walks, measured from its x axis. "
   + "The last column is the mean distance of the feet from the tracked feet, at the same phase of each iteration";
 
 function figures({ rows }) {

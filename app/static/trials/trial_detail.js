@@ -112,8 +112,8 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })), exampleLine(now), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
     tail.replaceChildren(...[endsLine(now, (changes) => sync.change(changes)), comparison.element, iterationTable(now),
-      movementTable("Movement as published", "Distance as the publication defines it, from the largest displacements along x and y. This distance is never negative. The angle is the direction of the movement on the platform", now.figures, now.plan, published),
-      movementTable("Movement from first to last frame", "Movement of each foot from the first to the last frame. The angle is the direction of this movement on the platform", now.figures, now.plan, net),
+      movementTable("Movement as published", "Distance as the publication defines it, from the largest displacements along x and y. This distance is never negative. The angle is the direction of the movement on the platform where the robot walks, measured from its x axis", now.figures, now.plan, published),
+      movementTable("Movement from first to last frame", "Movement of each foot from the first to the last frame. The angle is the direction of this movement on the platform where the robot walks, measured from its x axis", now.figures, now.plan, net),
       slipTable(now), filesLine(now, remove)].filter(Boolean));
     drawPlots();
     attempt(comparison.refresh)();

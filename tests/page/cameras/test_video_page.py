@@ -101,7 +101,7 @@ def test_a_video_becomes_a_trial_through_a_setup_that_is_made_on_its_picture(pag
     panel(page).get_by_role("button", name="Foot 2, red").click()
     panel(page).get_by_role("button", name="Pick colour").click()
     click_pixel(page, pixel_of((0, 4)))
-    expect(panel(page).get_by_role("list", name="Spots of this colour")).to_contain_text("taken as the foot")
+    expect(panel(page).get_by_role("list", name="Spots of this colour")).to_contain_text("chosen as the foot")
     assert findings(page) == []
 
     panel(page).get_by_role("button", name="Done").click()
@@ -139,7 +139,7 @@ def test_a_video_that_is_sent_twice_is_said_to_be_there(page: Page, video: Path)
     send_video(page, video)
     panel(page).get_by_role("button", name="All videos").click()
     panel(page).get_by_label("Video file").set_input_files(video)
-    expect(page.get_by_role("status").filter(has_text="it is not kept twice")).to_be_visible()
+    expect(page.get_by_role("status").filter(has_text="The studio already has “")).to_be_visible()
 
 
 def test_a_file_on_its_way_goes_on_where_its_panel_is_left_until_it_is_cancelled(
@@ -189,7 +189,7 @@ def test_a_setup_that_was_changed_elsewhere_is_shown_as_it_is_now(
     assert studio.ask("PUT", f"/api/setups/{view['id']}", {"revision": 1, "setup": setup}).status == 200
     name.fill("mine")
     name.press("Tab")
-    expect(page.get_by_role("alert").filter(has_text="changed elsewhere meanwhile")).to_be_visible()
+    expect(page.get_by_role("alert").filter(has_text="on another page")).to_be_visible()
     expect(name).to_have_value("from another service")
     name.fill("mine")
     name.press("Tab")
@@ -228,7 +228,7 @@ def test_a_lens_is_found_from_pictures_of_a_board_and_straightens_what_is_shown(
     expect(boards).to_have_count(len(TURNS) + 1)
     expect(boards.filter(has_text=re.compile(r"0\.\d\d px"))).to_have_count(len(TURNS))
     expect(boards.last).to_contain_text("not found")
-    expect(panel(page).get_by_text(f"{len(TURNS)} of them")).to_be_visible()
+    expect(panel(page).get_by_text(f"computed from {len(TURNS)} pictures")).to_be_visible()
     shown = page.locator(".video-image").get_attribute("src")
     straighten.click()
     expect(page.locator(".video-image")).not_to_have_attribute("src", shown or "")

@@ -202,7 +202,7 @@ def test_a_number_says_how_far_it_can_go_while_it_is_dragged(page: Page, studio:
     page.mouse.move(place[0] + 12, place[1])
     hint = name.get_by_role("status")
     expect(hint).to_have_text(re.compile(r"^Possible up to [0-9.]+ mm$"))
-    largest = float(hint.inner_text().split()[2])
+    largest = float(hint.inner_text().split()[3])
     page.mouse.move(place[0] + 40, place[1])
     expect(hint).to_be_visible()
     page.keyboard.press("Escape")

@@ -162,7 +162,7 @@ def test_numbers_and_the_link_are_typed(page: Page, studio: StudioProcess) -> No
     page.keyboard.type("lean a")
     page.keyboard.press("Enter")
     wait_for(lambda: table(studio, gait)["link"][1] == ["Lean A"], "the link is changed")
-    expect(note(page)).to_contain_text("Foot 2, link segment 1: ends at Lean-Base")
+    expect(note(page)).to_contain_text("the segment ends at Lean-Base")
     note(page).get_by_role("button").click()
     wait_for(lambda: table(studio, gait)["link"][1] == ["Wait A"], "the link is mended")
     repeat = page.get_by_role("spinbutton", name="Repeat to segment")

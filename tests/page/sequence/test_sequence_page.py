@@ -251,7 +251,7 @@ def test_a_part_with_another_sample_time_is_resampled_in_one_click(
 def test_gaits_that_cannot_be_parts_are_greyed_with_the_reason(page: Page, tour: str) -> None:
     greyed = page.get_by_label("Gait to add").locator("option:disabled")
     expect(greyed.filter(has_text="(made for the robot's clock)").first).to_be_attached()
-    expect(greyed.filter(has_text="(for the robot ").first).to_be_attached()
+    expect(greyed.filter(has_text="(made for the robot ").first).to_be_attached()
     expect(page.get_by_label("Gait to add").locator("option:checked")).to_be_enabled()
 
 

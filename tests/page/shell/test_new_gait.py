@@ -147,7 +147,9 @@ def test_a_robot_with_other_legs_gets_a_gait_of_its_own(page: Page, studio: Stud
     before = document(studio, "S-Gait 10 mm")
     robot(page).select_option("dodecapod")
     dialog = page.get_by_role("dialog", name="New gait")
-    expect(dialog).to_contain_text("Dodecapod, 36 motors has 12 legs, “S-Gait 10 mm” has 4")
+    expect(dialog).to_contain_text(
+        "“S-Gait 10 mm” is a gait for 4 legs, but Dodecapod, 36 motors has 12 legs"
+    )
     expect(robot(page)).to_have_value("deltawalker")
     expect(dialog.get_by_label("Name of the new gait")).to_have_value("S-Gait 10 mm, Dodecapod")
     expect(dialog.get_by_label("Heading")).to_have_value("FBS")

@@ -57,7 +57,7 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     versions.press("End")
     expect(difference).to_contain_text("since version 1")
     page.get_by_label("Compared with").select_option(label="version 2, Two millimetres")
-    expect(difference).to_contain_text("From version 1 to version 2")
+    expect(difference).to_contain_text("Changes from version 1 to version 2")
     restore = page.get_by_role("button", name="Restore")
     expect(restore).not_to_have_attribute("aria-disabled", "true")
     restore.press("Enter")

@@ -279,7 +279,8 @@ def test_cells_are_copied_as_text_and_pasted_where_they_fit(timeline: TimelinePa
     timeline.press("Control+v")
     timeline.becomes(gait, *painted(pasted, 4, 23, 24, "0"))
     timeline.said(
-        "The pasted cells did not fit. Left out: 2 samples after the end and 1 row below the last foot."
+        "Some of the copied cells did not fit and were not pasted: "
+        "2 samples after the end and 1 row below the last foot."
     )
     timeline.undo().click()
     page.evaluate("() => navigator.clipboard.writeText('stance, swing')")

@@ -40,7 +40,7 @@ def plan_figure(plan: Plan) -> Figure:
 
         def _repr_png_(self) -> bytes:
             picture = BytesIO()
-            self.savefig(picture, format="png", dpi=DOTS)
+            self.savefig(picture, format="png", dpi=DOTS, metadata={"Software": None})
             return picture.getvalue()
 
     figure = PlanFigure(figsize=(9, 6), layout="constrained")

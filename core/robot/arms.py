@@ -42,8 +42,9 @@ def arm_bars(model: RobotModel, strokes: Floats) -> Floats:
     left, right, low_left, low_right = knees - across, knees + across, vertices - across, vertices + across
     bars = [(left, low_left), (right, low_right), (left, right), (low_left, low_right)]
     ends = np.stack([np.stack(bar, axis=-2) for bar in bars], axis=-3)
-    turned = np.einsum("lij,nlabej->nlabei", model.R_robot_from_module, ends)
-    return np.asarray(turned + model.module_centres_robot[:, None, None, None])
+    points = ends.reshape(*ends.shape[:2], -1, 3)
+    turned = points @ np.swapaxes(model.R_robot_from_module, 1, 2) + model.module_centres_robot[:, None]
+    return np.asarray(turned.reshape(ends.shape))
 
 
 @dataclass(frozen=True, eq=False)

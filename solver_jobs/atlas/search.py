@@ -14,7 +14,7 @@ from solver_jobs.atlas.rows import ROOM, Family, all_rows
 
 FARTHEST = (10.0, 10.0, 8.0, 5.0, 5.0)
 """Largest change of an unknown in each step, mm."""
-HOPELESS = (8.0, 3.0, 1.0, 0.4, 0.1)
+HOPELESS = (6.0, 2.0, 0.7, 0.3, 0.1)
 """A gait whose linearised limits are missed by more than this in a step is given up, mm."""
 LENGTHENING = (5.0, 3.0)
 """Largest change of an unknown in the steps that make short moves longer, mm."""

@@ -77,7 +77,11 @@ def atlas_space(robot: str | None, path: Path | None, seed: int | None) -> Atlas
     if path is None:
         space = default_space(robot or "deltawalker")
     else:
-        space = space_from_toml(read_plain_file(path, MOST_SPACE).decode(errors="replace"), str(path))
+        try:
+            text = read_plain_file(path, MOST_SPACE).decode(errors="replace")
+        except FileNotFoundError as error:
+            raise InputError(f"There is no file {path}. Give an existing space file.", "--space") from error
+        space = space_from_toml(text, str(path))
         if robot is not None and robot != space.robot:
             raise InputError(
                 f"{path} is a space of {space.robot}, and --robot is {robot}. Leave --robot out, or change "

@@ -92,6 +92,7 @@ _HOMES = {
     "sending": ("Run", "send"),
     "robots": ("Robot", "robot", "robots"),
     "trials": ("Trial", "trial"),
+    "atlases": ("Atlas", "atlas"),
     "studio": ("show",),
     "errors": (
         "CheckError",

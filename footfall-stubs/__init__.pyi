@@ -160,6 +160,15 @@ class Trial:
     @property
     def mean(self) -> dict[str, float]: ...
 
+class Atlas:
+    path: Path
+    space: Mapping[str, Any]
+    counts: Mapping[str, int]
+    hash: str
+    def values(self, key: str) -> _Floats: ...
+    def front(self, x: str = "margin", y: str = "speed") -> list[dict[str, Any]]: ...
+    def open(self, number: int) -> Gait: ...
+
 _Source = Plan | Gait | str | Path | ArrayLike
 
 def robot(name: str = "deltawalker") -> Robot: ...
@@ -174,6 +183,16 @@ def plan(source: _Source, *, method: str = "nlp", robot: str | None = None) -> P
 def pattern(
     *, legs: int, samples: int, start: str | None = None, end: str | None = None, **options: Any
 ) -> Pattern: ...
+def atlas(
+    path: str | Path,
+    *,
+    count: int | None = None,
+    robot: str | None = None,
+    space: str | Path | Mapping[str, Any] | None = None,
+    seed: int | None = None,
+    workers: int | None = None,
+    dask: str | None = None,
+) -> Atlas: ...
 def segments(source: str | Path | Gait) -> Segments: ...
 def transition(
     first: str | Path | Gait,

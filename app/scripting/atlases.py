@@ -1,0 +1,206 @@
+"""Atlases for scripts: thousands of evaluated gaits, their front, and one of them as a gait."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from app.atlas.atlas_file import AtlasFile
+from app.atlas.dask_engine import DaskEngine
+from app.atlas.export import table_row
+from app.atlas.front import atlas_front, front_keys
+from app.atlas.opening import opened_gait
+from app.atlas.run import Engine, LocalEngine, run_atlas
+from app.cli.atlas.commands import atlas_space
+from app.scripting.gaits import Gait
+from app.scripting.html import table
+from app.scripting.progress import progress_bar
+from core.arrays import Floats
+from core.atlas.row import RowStatus
+from core.atlas.space import AtlasSpace, space_from_table
+from core.errors import InputError
+
+_SHOWN = ("id", "speed", "margin", "order", "step_x", "step_y", "turn", "stop_bound")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Atlas:
+    """Thousands of evaluated gaits in one file. `footfall.atlas` gives one.
+
+    Args:
+        path: the file.
+        space: what its gaits are drawn from, as in a space file.
+        counts: how many gaits are `solved`, `infeasible` and `failed`.
+        hash: SHA-256 over its results.
+
+    Raises:
+        InputError: by its methods, where a key or a number is none of the atlas.
+
+    Example:
+        >>> import footfall as ff, tempfile
+        >>> file = tempfile.mkdtemp() + "/small.sqlite"
+        >>> atlas = ff.atlas(file, count=8, space={"vary": {"step_x": [0.010, 0.012]}}, workers=1)
+        >>> sum(atlas.counts.values()), atlas.values("speed").shape
+        (8, (8,))
+    """
+
+    path: Path
+    space: Mapping[str, Any]
+    counts: Mapping[str, int]
+    hash: str
+
+    def values(self, key: str) -> Floats:
+        """One figure or parameter of every solved gait, in the order of their numbers.
+
+        Args:
+            key: such as `speed` in m/s, `seconds`, `least_margin` in m, or `step_x` in m.
+
+        Returns:
+            (solved,) SI.
+
+        Raises:
+            InputError: the atlas has no such number.
+
+        Example:
+            >>> import footfall as ff, tempfile
+            >>> file = tempfile.mkdtemp() + "/small.sqlite"
+            >>> atlas = ff.atlas(file, count=4, space={"vary": {"step_x": [0.010, 0.012]}}, workers=1)
+            >>> bool((atlas.values("seconds") > 10.0).all())
+            True
+        """
+        with closing(AtlasFile(self.path)) as file:
+            known = front_keys(file)
+            if key not in known:
+                raise InputError(f"The atlas has no “{key}”; choose among {', '.join(known)}.", "key")
+            return np.array([table_row(*entry)[key] for entry in file.entries(RowStatus.SOLVED)])
+
+    def front(self, x: str = "margin", y: str = "speed") -> list[dict[str, Any]]:
+        """Solved gaits that no other one beats in one of two keys without losing in the other.
+
+        Args:
+            x: a figure or a parameter.
+            y: another one.
+
+        Returns:
+            Of each its `id`, figures and parameters in SI (m, s, rad); the best in `y` first.
+
+        Raises:
+            InputError: the atlas has no such key.
+
+        Example:
+            >>> import footfall as ff, tempfile
+            >>> file = tempfile.mkdtemp() + "/small.sqlite"
+            >>> atlas = ff.atlas(file, count=8, space={"vary": {"step_x": [0.010, 0.012]}}, workers=1)
+            >>> best = atlas.front()[0]
+            >>> bool(best["speed"] == atlas.values("speed").max())
+            True
+        """
+        with closing(AtlasFile(self.path)) as file:
+            return [table_row(*entry) for entry in atlas_front(file, x, y)]
+
+    def open(self, number: int) -> Gait:
+        """One of its gaits, solved again, as a gait from the standard stance to rest.
+
+        A step of mid-walk that is too long for the way from and to the stance becomes the fastest one.
+
+        Args:
+            number: `id` of the gait.
+
+        Returns:
+            The gait; a plan of it has its poses.
+
+        Raises:
+            NotFoundError: the atlas has no gait of that number.
+            InputError: the answer differs from the atlas, or the robot's parameters have changed.
+
+        Example:
+            >>> import footfall as ff, tempfile
+            >>> file = tempfile.mkdtemp() + "/small.sqlite"
+            >>> atlas = ff.atlas(file, count=4, space={"vary": {"step_x": [0.010, 0.012]}}, workers=1)
+            >>> ff.plan(atlas.open(atlas.front()[0]["id"])).status
+            'solved'
+        """
+        with closing(AtlasFile(self.path)) as file:
+            opened = opened_gait(file, number)
+        if opened.difference is not None or opened.document is None:
+            raise InputError(
+                f"Gait {number} of {self.path} differs from its row. {opened.difference} Run the atlas again "
+                "into another file.",
+                "number",
+            )
+        return Gait(opened.document)
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
+        return f"<Atlas {self.path.name}: {counts}>"
+
+    def _repr_html_(self) -> str:
+        rows = [[one[key] for key in _SHOWN] for one in self.front()]
+        solved, every = self.counts["solved"], sum(self.counts.values())
+        return table(_SHOWN, rows, f"{solved} of {every} gaits solved; the fastest for each margin")
+
+
+def atlas(
+    path: str | Path,
+    *,
+    count: int | None = None,
+    robot: str | None = None,
+    space: str | Path | Mapping[str, Any] | None = None,
+    seed: int | None = None,
+    workers: int | None = None,
+    dask: str | None = None,
+) -> Atlas:
+    """Evaluates thousands of gaits and keeps them in a file, or opens such a file.
+
+    Args:
+        path: ATLAS.sqlite; made, or gone on with.
+        count: how many gaits it is to have; None to open a file as it is.
+        robot: its name; None for that of the space, or the DeltaWalker.
+        space: what varies: a TOML file, or its content as a mapping; None for the default space.
+        seed: of the draw; None for that of the space.
+        workers: processes on this computer; None for one a core.
+        dask: `local`, or the address of a Dask scheduler; None for processes of this computer.
+
+    Returns:
+        The atlas. Lengths are in m, angles in rad, times in s.
+
+    Raises:
+        InputError: something does not fit, or the file is of another space.
+        NotFoundError: there is no such file, and `count` is None.
+        StateError: a cluster went away; what was computed is kept.
+
+    Example:
+        >>> import footfall as ff, tempfile
+        >>> file = tempfile.mkdtemp() + "/small.sqlite"
+        >>> ff.atlas(file, count=4, space={"vary": {"step_x": [0.010, 0.012]}}, workers=1)
+        <Atlas small.sqlite: 4 solved, 0 infeasible, 0 failed>
+    """
+    where = Path(path)
+    with closing(AtlasFile(where, None if count is None else _space(robot, space, seed))) as file:
+        if count is not None:
+            _run(file, count, workers, dask)
+        counts = {status.value: number for status, number in file.counts().items()}
+        return Atlas(where, file.space.content(), counts, file.hash)
+
+
+def _space(robot: str | None, space: str | Path | Mapping[str, Any] | None, seed: int | None) -> AtlasSpace:
+    if not isinstance(space, Mapping):
+        return atlas_space(robot, None if space is None else Path(space), seed)
+    own = {} if robot is None else {"robot": robot}
+    drawn = {} if seed is None else {"seed": seed}
+    return space_from_table({**space, **own, **drawn}, "the space")
+
+
+def _run(file: AtlasFile, count: int, workers: int | None, dask: str | None) -> None:
+    if count < 1:
+        raise InputError(f"count is {count}; it must be at least 1.", "count")
+    processes = workers or os.cpu_count() or 1
+    engine: Engine = LocalEngine(processes) if dask is None else DaskEngine(dask, processes)
+    with progress_bar("Atlas") as tell:
+        run_atlas(file, count, engine, lambda progress: tell(progress.done / max(progress.count, 1)))

@@ -60,9 +60,9 @@ function targetText({ wired, moves, seconds: takes, stop_seconds: stop, margin_m
       + `The motors are coupled, so the strokes differ from the target by up to ${fixed(off)} mm.`;
   }
   if (!moves) return "";
-  const balance = margin === null ? "" : ` Stability margin ${fixed(margin)} mm.`;
+  const balance = margin === null ? "" : ` Margin ${fixed(margin)} mm.`;
   return `${counted(moves, "move")}, about ${seconds(takes)} s. `
-    + `Stop takes effect within ${seconds(stop)} s.${balance}`;
+    + `Stop acts within ${seconds(stop)} s.${balance}`;
 }
 
 const findingRow = ({ severity, sentence }) => h("li", { data: { toneText: severity === "error" ? "bad" : "caution" }, text: sentence });

@@ -132,5 +132,5 @@ def test_jobs_and_runs_one_opened_and_two_compared(page: Page) -> None:
     unfold(page)
     require_no_finding(page, "a run")
     runs.get_by_label("Compare with").select_option(index=1)
-    expect(runs.get_by_role("status", name="Comparison")).to_contain_text("both reached")
+    expect(runs.get_by_role("status", name="Comparison")).to_contain_text("both runs reached")
     require_no_finding(page, "two runs")

@@ -36,11 +36,11 @@ def test_a_long_press_explains_and_does_nothing_else(page: Page) -> None:
         (page.get_by_role("button", name="Redo"), "Nothing to redo."),
         (
             page.get_by_role("status", name="Verdict").get_by_role("button", name=re.compile("^Plan")),
-            "Margin: how far",
+            "Stability margin: how far",
         ),
         (page.locator(".plot-label .name").first, ""),
         (page.get_by_role("button", name="Loop"), "Loop the selected samples"),
-        (cell, "Click for swing"),
+        (cell, "Click to change this cell to swing"),
         (page.get_by_text("Step", exact=True).first, ""),
     ):
         long_press(page, target)

@@ -54,7 +54,7 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
     jog.get_by_role("spinbutton", name="Jog step").press("Enter")
     higher.click()
     higher.click()
-    expect(jog.get_by_text(re.compile(r"3 moves, about .* Stop takes effect within"))).to_be_visible()
+    expect(jog.get_by_text(re.compile(r"3 moves, about .* Stop acts within"))).to_be_visible()
     before = studio.robot()["strokes_mm"]
     assert max(before) < 1.0
     look(page, "jog")

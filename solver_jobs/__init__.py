@@ -33,7 +33,7 @@ from solver_jobs.remedies.remedy import (
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
-from solver_jobs.workers.atlas_service import Chunk, ChunkRun, ChunkWorker, evaluated_chunk
+from solver_jobs.workers.atlas_service import Chunk, ChunkRun, ChunkWorker, EvaluatedGaits, evaluated_chunk
 from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
 from solver_jobs.workers.fastest_search import FastestSearch, SearchStep, TriedGait, fastest_of
 from solver_jobs.workers.job import OPEN_STATES, Job, JobKind, JobState, result_sentence
@@ -58,6 +58,7 @@ __all__ = [
     "Chunk",
     "ChunkRun",
     "ChunkWorker",
+    "EvaluatedGaits",
     "Evidence",
     "FastestSearch",
     "Frontier",

@@ -16,7 +16,7 @@ from core.atlas.point import AtlasPoint
 from core.atlas.row import FIGURES, AtlasRow, RowStatus, results_hash
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import InputError, NotFoundError, StorageError
-from solver_jobs import Chunk
+from solver_jobs import Chunk, EvaluatedGaits
 
 FORMAT, FORMAT_VERSION = "footfall-atlas", 1
 CHUNK = 400
@@ -83,19 +83,18 @@ class AtlasFile:
         starts = ((first + known.get(first // CHUNK, 0), first + CHUNK) for first in range(0, count, CHUNK))
         return [Chunk(start, min(end, count) - start) for start, end in starts if start < min(end, count)]
 
-    def add(self, rows: Sequence[AtlasRow], points: Sequence[AtlasPoint]) -> None:
+    def add(self, gaits: EvaluatedGaits) -> None:
         """Stores a chunk; it is on disk when this ends without an error, and nothing of it is otherwise.
 
         Args:
-            rows: what came of its gaits.
-            points: their parameters, in the same order.
+            gaits: of the chunk, each with what came of it.
 
         Raises:
             StorageError: the disk does not take it.
         """
         values = [
             (row.number, row.status.value, row.reason, *map(_or_none, row.figures), _written(point))
-            for row, point in zip(rows, points, strict=True)
+            for point, row in gaits
         ]
         places = ", ".join("?" * len(_COLUMNS))
         with self._reading() as connection, connection:

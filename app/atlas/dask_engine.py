@@ -89,7 +89,7 @@ class DaskEngine:
                     if future.status in ("cancelled", "lost"):
                         waiting.append(chunk)
                         continue
-                    yield DoneChunk(chunk, self._rows(future))
+                    yield DoneChunk(chunk, self._gaits(future))
                 yield None
 
     def _client(self, opened: ExitStack) -> Any:
@@ -150,8 +150,8 @@ class DaskEngine:
                 "--dask",
             )
 
-    def _rows(self, future: Any) -> Any:
-        """Rows of a chunk that is done.
+    def _gaits(self, future: Any) -> Any:
+        """Gaits of a chunk that is done.
 
         Raises:
             StateError: its workers died with it, or the program failed there.

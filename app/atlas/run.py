@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from app.atlas.atlas_file import AtlasFile
-from core.atlas.row import AtlasRow, RowStatus
+from core.atlas.row import RowStatus
 from core.atlas.space import AtlasSpace
-from solver_jobs import Chunk, ChunkRun, ChunkWorker, drawn_points
+from solver_jobs import Chunk, ChunkRun, ChunkWorker, EvaluatedGaits
 
 POLL_SECONDS = 0.05
 """Between looks for chunks that are done, and for a wish to end."""
@@ -43,15 +43,15 @@ class Progress:
 
 @dataclass(frozen=True, eq=False)
 class DoneChunk:
-    """Rows of a chunk that an engine has evaluated.
+    """A chunk that an engine has evaluated.
 
     Args:
         chunk: which gaits.
-        rows: what came of them.
+        gaits: what came of them.
     """
 
     chunk: Chunk
-    rows: list[AtlasRow]
+    gaits: EvaluatedGaits
 
 
 class Engine(Protocol):
@@ -136,9 +136,8 @@ def run_atlas(
     with closing(_flow(engine, atlas, chunks, go_on)) as flow:
         for chunk in flow:
             if chunk is not None:
-                points = drawn_points(atlas.space, chunk.chunk.first, chunk.chunk.count)
-                atlas.add(chunk.rows, points)
-                solved = sum(row.status is RowStatus.SOLVED for row in chunk.rows)
+                atlas.add(chunk.gaits)
+                solved = sum(row.status is RowStatus.SOLVED for _, row in chunk.gaits)
                 progress = replace(
                     progress,
                     done=progress.done + chunk.chunk.count,

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
+from core.atlas.point import AtlasPoint
 from core.atlas.row import AtlasRow
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import StateError
@@ -33,10 +34,14 @@ class ChunkTask:
     chunk: Chunk
 
 
-class ChunkRun(Task[ChunkTask, float, list[AtlasRow]]):
+EvaluatedGaits = list[tuple[AtlasPoint, AtlasRow]]
+"""Gaits in the order of their numbers, each with what came of it."""
+
+
+class ChunkRun(Task[ChunkTask, float, EvaluatedGaits]):
     """One chunk that is being evaluated."""
 
-    def unanswered(self, seconds: float) -> list[AtlasRow]:
+    def unanswered(self, seconds: float) -> EvaluatedGaits:
         """Nothing comes of a chunk that did not end.
 
         Raises:
@@ -76,14 +81,14 @@ def run_atlas_worker(pipe: Connection, warm_up: None) -> None:
     run_tasks(pipe, _evaluated)
 
 
-def _evaluated(task: ChunkTask, report: Report) -> list[AtlasRow]:
+def _evaluated(task: ChunkTask, report: Report) -> EvaluatedGaits:
     return evaluated_chunk(task.space, task.chunk.first, task.chunk.count, report)
 
 
 def evaluated_chunk(
     space: dict[str, object], first: int, count: int, report: Report = lambda share: True
-) -> list[AtlasRow]:
-    """Rows of a chunk, as any engine computes them; the same on one core or on many.
+) -> EvaluatedGaits:
+    """The gaits of a chunk, as any engine computes them; the same on one core or on many.
 
     Args:
         space: its content.
@@ -94,9 +99,12 @@ def evaluated_chunk(
     Raises:
         StateError: `report` ended it.
     """
-    from solver_jobs.atlas.evaluate import evaluated
+    from solver_jobs.atlas.draw import drawn_points
+    from solver_jobs.atlas.evaluate import evaluated_points
 
-    rows = evaluated(space_from_table(space, "the space"), first, count, report)
+    drawn_from = space_from_table(space, "the space")
+    points = drawn_points(drawn_from, first, count)
+    rows = evaluated_points(drawn_from, points, report)
     if len(rows) < count:
         raise StateError("The run was ended.")
-    return rows
+    return list(zip(points, rows, strict=True))

@@ -138,6 +138,13 @@ class AtlasFile:
             raise NotFoundError(f"{self.path} has no gait {number}; it has {count} gaits.", "ID")
         return _row(values), json.loads(values[-1])
 
+    def fastest(self) -> float | None:
+        """Speed of its fastest solved gait, m/s; None where none is solved."""
+        with self._reading() as connection:
+            query = "SELECT max(speed) FROM gaits WHERE status = ?"
+            found = connection.execute(query, (RowStatus.SOLVED.value,)).fetchone()[0]
+        return None if found is None else float(found)
+
     @property
     def hash(self) -> str:
         """SHA-256 over its results, in the order of their numbers."""

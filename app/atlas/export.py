@@ -1,4 +1,4 @@
-"""An atlas in other forms: CSV and Parquet."""
+"""An atlas in other forms: CSV, Parquet, and a page with its map."""
 
 import csv
 import io
@@ -6,12 +6,18 @@ from pathlib import Path
 from typing import Any
 
 from app.atlas.atlas_file import AtlasFile
+from app.atlas.map_page import map_page
 from app.common.json import Json
 from app.store.gait_files import write_atomically
 from core.atlas.row import FIGURES, AtlasRow
 from core.errors import InputError
 
-SUFFIXES = (".csv", ".parquet")
+MEDIA_TYPES = {
+    ".csv": "text/csv; charset=utf-8",
+    ".parquet": "application/vnd.apache.parquet",
+    ".html": "text/html; charset=utf-8",
+}
+"""The forms by the ends of their files' names."""
 
 
 def export_atlas(atlas: AtlasFile, path: Path) -> int:
@@ -19,20 +25,29 @@ def export_atlas(atlas: AtlasFile, path: Path) -> int:
 
     Args:
         atlas: the file.
-        path: ends in .csv or .parquet.
+        path: ends in .csv, .parquet or .html.
 
     Raises:
         InputError: it ends in something else, or what Parquet needs is not installed.
         StorageError: the disk does not take it.
     """
-    if path.suffix not in SUFFIXES:
-        raise InputError(f"{path} must end in {' or '.join(SUFFIXES)}.", "-o")
+    if path.suffix not in MEDIA_TYPES:
+        *others, last = MEDIA_TYPES
+        raise InputError(f"{path} must end in {', '.join(others)} or {last}.", "-o")
+    write_atomically(path, exported(atlas, path.suffix))
+    return sum(atlas.counts().values())
+
+
+def exported(atlas: AtlasFile, suffix: str) -> bytes:
+    """An atlas in one of the forms of `MEDIA_TYPES`.
+
+    Raises:
+        InputError: what Parquet needs is not installed.
+    """
+    if suffix == ".html":
+        return map_page(atlas).encode()
     entries = list(atlas.entries())
-    if path.suffix == ".csv":
-        write_atomically(path, _csv(entries))
-    else:
-        _write_parquet(path, entries)
-    return len(entries)
+    return _csv(entries).encode() if suffix == ".csv" else _parquet(entries)
 
 
 def table_row(row: AtlasRow, parameters: Json) -> dict[str, Any]:
@@ -58,7 +73,7 @@ def _csv(entries: list[tuple[AtlasRow, Json]]) -> str:
     return text.getvalue()
 
 
-def _write_parquet(path: Path, entries: list[tuple[AtlasRow, Json]]) -> None:
+def _parquet(entries: list[tuple[AtlasRow, Json]]) -> bytes:
     try:
         import pyarrow
         from pyarrow import parquet
@@ -70,4 +85,4 @@ def _write_parquet(path: Path, entries: list[tuple[AtlasRow, Json]]) -> None:
         ) from error
     sink = io.BytesIO()
     parquet.write_table(pyarrow.Table.from_pylist([table_row(*entry) for entry in entries]), sink)
-    write_atomically(path, sink.getvalue())
+    return sink.getvalue()

@@ -13,6 +13,8 @@ from core.errors import InputError
 
 BETTER_SMALL = frozenset({"seconds", "body_move", "stroke_use", "stop_seconds", "stop_bound"})
 """Keys of which less is better; of all others more is."""
+BY_SIZE = frozenset({"turn_rate", "turn"})
+"""Keys whose values count by their size, to whichever side they lead."""
 NUMBERS = tuple(name for name, key in KEYS.items() if key.is_number)
 UNITS: Mapping[str, tuple[str, float]] = MappingProxyType(
     {
@@ -81,6 +83,6 @@ def value_of(row: AtlasRow, parameters: Json, key: str) -> float:
 def _gain(entry: tuple[AtlasRow, Json], key: str) -> float:
     """The value of a key, or its negative where less is better; turns count by their size."""
     value = value_of(*entry, key)
-    if key in ("turn_rate", "turn"):
+    if key in BY_SIZE:
         return abs(value)
     return -value if key in BETTER_SMALL else value

@@ -1,11 +1,11 @@
 """One HTML page with 3D playback and the gait diagram; it opens by double click, without any server."""
 
-import json
 from html import escape
 
 import numpy as np
 
-from app.common.json import Json, finite
+from app.common.json import Json
+from app.common.page_template import filled, script_json
 from app.export.gait_diagram import PlotArea, facts, gait_diagram, plot_area, sample_edges
 from app.export.source import Motion
 from app.export.svg import svg
@@ -18,8 +18,6 @@ from core.robot.leg import vertex_directions
 from core.robot.model import RobotModel
 
 _SCRIPTS = ("view.js", "robot.js", "scene.js", "player.js")
-_UNSAFE = {ord("<"): "\\u003c", ord(">"): "\\u003e", ord("&"): "\\u0026"}
-"""Characters that could end a script within a page, as JSON writes them within texts."""
 
 
 def playback_page(gait: Gait, motion: Motion) -> str:
@@ -37,15 +35,10 @@ def playback_page(gait: Gait, motion: Motion) -> str:
         "NOTE": escape(motion.note),
         "STYLE": _part("page.css"),
         "DIAGRAM": svg(diagram),
-        "DATA": json.dumps(finite(_content(gait, motion)), allow_nan=False).translate(_UNSAFE),
+        "DATA": script_json(_content(gait, motion)),
         "SCRIPT": f'(() => {{\n"use strict";\n{script}}})();',
     }
-    pieces = _part("page.html").split("{{")
-    filled = [pieces[0]]
-    for piece in pieces[1:]:
-        key, rest = piece.split("}}", 1)
-        filled += [parts[key], rest]
-    return "".join(filled)
+    return filled(_part("page.html"), parts)
 
 
 def _part(name: str) -> str:

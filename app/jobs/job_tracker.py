@@ -99,7 +99,7 @@ class JobTracker:
     def _ended(self, job_id: str, end: Json) -> None:
         del self._on[job_id]
         job = self._job_repository.content(job_id)
-        if job["state"] == "cancelling" and end["state"] != "done":
+        if job["state"] == "cancelling" and end["state"] not in ("done", "cancelled"):
             end = {"state": "cancelled", "sentence": "Cancelled."}
         job |= {**end, "ended": time.time()}
         self._job_repository.keep(job)

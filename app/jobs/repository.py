@@ -17,7 +17,12 @@ MOST_SHOWN = 20
 MOST_KEPT = 100
 """Ended jobs that are kept in memory; older ones are read from the database."""
 
-AGAIN = {"simulate": "Simulate again.", "track": "Track the video again.", "fastest": "Search again."}
+AGAIN = {
+    "simulate": "Simulate again.",
+    "track": "Track the video again.",
+    "fastest": "Search again.",
+    "atlas": "Make the same atlas again to go on.",
+}
 """What to do about a job that was interrupted, by kind."""
 
 

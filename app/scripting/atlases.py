@@ -15,6 +15,7 @@ from app.atlas.atlas_file import AtlasFile
 from app.atlas.dask_engine import DaskEngine
 from app.atlas.export import table_row
 from app.atlas.front import atlas_front, front_keys
+from app.atlas.included import included_or
 from app.atlas.opening import opened_gait
 from app.atlas.run import Engine, LocalEngine, run_atlas
 from app.cli.atlas.commands import atlas_space
@@ -159,7 +160,7 @@ def atlas(
     """Evaluates thousands of gaits and keeps them in a file, or opens such a file.
 
     Args:
-        path: ATLAS.sqlite; made, or gone on with.
+        path: ATLAS.sqlite; made, or gone on with. `deltawalker-small` is the one that comes with the program.
         count: how many gaits it is to have; None to open a file as it is.
         robot: its name; None for that of the space, or the DeltaWalker.
         space: what varies: a TOML file, or its content as a mapping; None for the default space.
@@ -181,7 +182,7 @@ def atlas(
         >>> ff.atlas(file, count=4, space={"vary": {"step_x": [0.010, 0.012]}}, workers=1)
         <Atlas small.sqlite: 4 solved, 0 infeasible, 0 failed>
     """
-    where = Path(path)
+    where = included_or(Path(path)) if count is None else Path(path)
     with closing(AtlasFile(where, None if count is None else _space(robot, space, seed))) as file:
         if count is not None:
             _run(file, count, workers, dask)

@@ -10,6 +10,7 @@ import { mountSequenceBand } from "./sequence/sequence_band.js";
 import { mountSimulate } from "./check/simulate.js";
 import { mountStage } from "./stage/stage.js";
 import { attempt } from "./lib/toasts.js";
+import { byId } from "./lib/dom.js";
 import { mountTrialEntry } from "./lab/entry.js";
 import { mountNextActs } from "./steps/next_act.js";
 import { openStep } from "./steps/steps.js";
@@ -35,6 +36,22 @@ function mountFastest(store, gaitTools) {
   });
 }
 
+/** The dialog Atlases, loaded when it is first opened: from the drawer Jobs, and from a job in it. */
+function mountAtlases(store) {
+  const open = attempt(async (name = null) => {
+    const { askAtlas } = await import("./atlas/atlases.js");
+    await askAtlas(store, name);
+  });
+  const button = byId("open-atlases");
+  button.disabled = false;
+  button.addEventListener("click", () => open());
+  store.watch(({ atlasWanted }) => [atlasWanted], ({ atlasWanted }) => {
+    if (!atlasWanted) return;
+    store.set({ atlasWanted: null });
+    open(atlasWanted);
+  });
+}
+
 /**
  * Builds them.
  * @param {{store: object, edits: object, playback: Playback, goTo: Function, gaitTools: object}} page
@@ -45,6 +62,7 @@ export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
   const sequence = mountSequence(store, edits, playback, gaitTools);
   mountSequenceBand(store, playback);
   mountFastest(store, gaitTools);
+  mountAtlases(store);
   const segments = mountSegments(store, edits);
   mountCheck(store, edits, goTo);
   mountSimulate(store, (time) => {

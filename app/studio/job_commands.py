@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, replace
 
+from app.atlas.service import KIND as ATLAS
+from app.atlas.service import AtlasService
 from app.common.json import Json
 from app.fastest.request import FastestRequest
 from app.fastest.service import KIND as FASTEST
@@ -16,6 +18,7 @@ from app.studio.publisher import Publisher
 from app.undo.history import Author
 from app.videos.tracking_service import KIND as TRACK
 from app.videos.tracking_service import TrackingJob, TrackingService
+from core.atlas.space import AtlasSpace
 from core.errors import StateError
 from solver_jobs import JobKind
 
@@ -32,6 +35,7 @@ class JobCommands:
         sets: the sets of physics parameters.
         tracks: the videos that are tracked.
         fastest: the searches for the fastest gait.
+        atlases: the runs of atlases.
         publisher: shows a job to the pages.
     """
 
@@ -42,6 +46,7 @@ class JobCommands:
     sets: ParameterSets
     tracks: TrackingService
     fastest: FastestService
+    atlases: AtlasService
     publisher: Publisher
 
     def submit_job(self, gait_id: str, kind: JobKind, author: Author) -> Json:
@@ -93,8 +98,17 @@ class JobCommands:
         """Starts a search for the fastest gait."""
         return self.publisher.publish_job(self.fastest.submit(request, has_front))
 
+    def submit_atlas(self, name: str, space: AtlasSpace | None, count: int) -> Json:
+        """Starts a run of an atlas."""
+        return self.publisher.publish_job(self.atlases.submit(name, space, count))
+
     def cancel_job(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""
-        cancels = {SIMULATE: self.simulating.cancel, TRACK: self.tracks.cancel, FASTEST: self.fastest.cancel}
+        cancels = {
+            SIMULATE: self.simulating.cancel,
+            TRACK: self.tracks.cancel,
+            FASTEST: self.fastest.cancel,
+            ATLAS: self.atlases.cancel,
+        }
         cancel = cancels.get(self.job_repository.content(job_id)["kind"], self.jobs.cancel)
         return self.publisher.publish_job(cancel(job_id))

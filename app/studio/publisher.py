@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 
+from app.atlas.service import KIND as ATLAS
 from app.common.json import Json
 from app.common.version import VERSION
 from app.documents.gait_json import asked_hash
@@ -111,7 +112,7 @@ class Publisher:
 
     def job_view(self, content: Json) -> Json:
         """A job, and whether it is of the gait as it is now; None where its plan is not made yet."""
-        if content["kind"] in (TRACK, FASTEST):
+        if content["kind"] in (TRACK, FASTEST, ATLAS):
             return {**content, "fresh": None}
         if content["kind"] == SIMULATE:
             keys = self._simulated_as.get(content["gait"])

@@ -7,6 +7,9 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol, TypeVar
 
+from app.atlas.library import FOLDER as ATLASES
+from app.atlas.library import AtlasLibrary
+from app.atlas.service import AtlasService
 from app.cameras.address import CameraAddress
 from app.common.json import Json
 from app.fastest.service import FastestService
@@ -90,7 +93,7 @@ class Studio:
             )
             self.commands = self._register(CommandQueue())
             self._open_gaits(files)
-            self._open_jobs()
+            self._open_jobs(data)
             self._open_trials(data, cameras)
             self._open_robot(device, RobotPorts(data / "robot.json"))
             self.storage.start()
@@ -128,8 +131,8 @@ class Studio:
         self._pattern_solvers = tuple(self._register(PatternSolver()) for _ in range(PATTERN_PROCESSES))
         self.patterns = PatternSearchService(self._pattern_solvers, self.publisher.tell_page)
 
-    def _open_jobs(self) -> None:
-        """Optimisations and simulations."""
+    def _open_jobs(self, data: Path) -> None:
+        """Optimisations, simulations, searches and atlases."""
         runner = self._register(JobQueue(self._job_changed, warm_up=likely_problem()))
         self.jobs = OptimisationService(self.job_repository, runner, self._on_result)
         self._simulator = simulator = Simulator()
@@ -140,6 +143,10 @@ class Studio:
         self._simulating = self._register(simulations)
         shown_job = self.publisher.publish_job
         self.fastest = self._register(FastestService(self.job_repository, self.commands.tell, shown_job))
+        library = AtlasLibrary(data / ATLASES)
+        self.atlases = self._register(
+            AtlasService(library, self.job_repository, self.commands.tell, shown_job)
+        )
         parts = RemedyParts(self.live, self._solver, self._pattern_solvers[0], simulator)
         self.remedies = self._register(RemedyService(parts))
         self._trial_simulations = self._register(
@@ -170,6 +177,7 @@ class Studio:
             sets,
             tracks,
             self.fastest,
+            self.atlases,
             publisher,
         )
 

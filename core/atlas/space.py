@@ -5,7 +5,7 @@ import json
 import tomllib
 from collections.abc import Mapping
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
 from itertools import permutations
@@ -86,6 +86,10 @@ class AtlasSpace:
         own.setdefault("order", usual_order(model))
         own.setdefault("margin", model.margin)
         return AtlasPoint(number=number, robot=self.robot, numbers=numbers, **own)
+
+    def drawn_by(self, seed: int | None) -> "AtlasSpace":
+        """The same space with another seed; None for its own."""
+        return self if seed is None else replace(self, seed=seed)
 
     def model(self, numbers: tuple[tuple[str, float], ...]) -> RobotModel:
         """The robot with some numbers of its parameters file changed.

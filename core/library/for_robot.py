@@ -15,6 +15,8 @@ CYCLES = 3
 STOP_BOUND = 1.5
 """Stop bound of a new gait for the robot's clock, s: 1.0 s would cost nearly half of its speed."""
 MARGIN = 0.006
+ATLAS = "deltawalker-small"
+"""The included atlas, of which each of these gaits has a number."""
 
 
 def asked_gait(item: dict[str, Any], like: Gait) -> Gait:
@@ -40,7 +42,7 @@ def asked_gait(item: dict[str, Any], like: Gait) -> Gait:
         step=(dx, dy, turn),
         iterations=CYCLES,
         options=options,
-        notes=item["note"],
+        notes=f"{item['note']} Atlas gait {item['atlas']}.",
     )
     return new_pose_gait(item["name"], asked, Poses(free_step=is_free), load_robot(like.robot))
 

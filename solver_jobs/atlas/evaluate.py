@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from core.atlas.space import AtlasKind, AtlasSpace
 from core.errors import FootfallError
 from core.pose_gaits.pose_check import PoseCheck, check_poses
 from core.pose_gaits.pose_gait import PoseGait
-from core.pose_gaits.pose_problem import PoseProblem
+from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
 from solver_jobs.atlas.draw import drawn_points
 from solver_jobs.atlas.layout import MM, Asked, Layout
 from solver_jobs.atlas.postures import Postures
@@ -22,6 +23,9 @@ TOGETHER = 48
 """Gaits that are searched together; more need more memory, fewer more time."""
 HEIGHT_ROOM = 2.0
 """How far the actuator plane of a pose may be from the height that is asked, mm."""
+ARMS_FARTHER = 0.0005
+"""How much farther apart arms are kept in a second search, m, where the checker finds them too near within a
+move: the search looks at fewer places."""
 WORDS = {
     "stop bound": "stop bound",
     "stroke": "motors' range",
@@ -120,9 +124,25 @@ def pose_gaits(space: AtlasSpace, points: Sequence[AtlasPoint]) -> list[tuple[Po
     """
     model = space.model(points[0].numbers)
     problems = [point.pose_problem(model) for point in points]
+    answers = _searched(points, problems, problems[0].bounds)
+    missed = [place for place, (_, row) in enumerate(answers) if row.status is RowStatus.FAILED]
+    if missed:
+        bounds = problems[0].bounds
+        farther = replace(bounds, arm_distance=bounds.arm_distance + ARMS_FARTHER)
+        again = _searched([points[place] for place in missed], [problems[place] for place in missed], farther)
+        for place, answer in zip(missed, again, strict=True):
+            if answer[1].status is RowStatus.SOLVED:
+                answers[place] = answer
+    return answers
+
+
+def _searched(
+    points: Sequence[AtlasPoint], problems: Sequence[PoseProblem], bounds: PoseBounds
+) -> list[tuple[PoseGait | None, AtlasRow]]:
+    """Motions and rows as the search finds them within bounds; the checker holds them to their own ones."""
     layout = Layout(problems[0])
     asked = _asked(points, problems)
-    found = Search(layout, asked, problems[0].bounds, HEIGHT_ROOM).run()
+    found = Search(layout, asked, bounds, HEIGHT_ROOM).run()
     poses = Postures(layout, asked).poses(found.unknowns)
     answers: list[tuple[PoseGait | None, AtlasRow]] = []
     for place, (point, problem) in enumerate(zip(points, problems, strict=True)):

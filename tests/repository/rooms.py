@@ -63,6 +63,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/gaits",
         "app/jobs",
         "app/fastest",
+        "app/atlas/page",
         "app/atlas",
         "app/simulation",
         "app/pattern_search",
@@ -123,6 +124,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/static/videos",
         "app/static/learning",
         "app/static/fastest",
+        "app/static/atlas",
         "app/static/lab",
         "app/static/first_steps",
         "app/static",
@@ -131,7 +133,7 @@ ORDER: dict[str, tuple[str, ...]] = {
 """The folders of each part, the lowest first."""
 
 ROOMS = tuple(room for rooms in ORDER.values() for room in rooms)
-PAGE_ROOMS = frozenset({*ORDER[STATIC], "app/export/page"})
+PAGE_ROOMS = frozenset({*ORDER[STATIC], "app/export/page", "app/atlas/page"})
 """Folders of JavaScript, CSS and HTML; all others hold Python."""
 
 MOST_FILES = 25

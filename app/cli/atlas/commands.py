@@ -13,6 +13,7 @@ from app.atlas.atlas_file import AtlasFile
 from app.atlas.dask_engine import DaskEngine
 from app.atlas.export import export_atlas, table_row
 from app.atlas.front import UNITS, atlas_front, value_of
+from app.atlas.included import included_or
 from app.atlas.opening import OpenedGait, opened_gait, opened_point
 from app.atlas.run import Engine, LocalEngine, Progress, run_atlas
 from app.cli.common.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
@@ -88,12 +89,12 @@ def atlas_space(robot: str | None, path: Path | None, seed: int | None) -> Atlas
                 "the file.",
                 "--robot",
             )
-    return space if seed is None else AtlasSpace(space.robot, space.kind, seed, space.axes)
+    return space.drawn_by(seed)
 
 
 def run_atlas_front(options: Namespace) -> int:
     """Prints the gaits of an atlas that no other one beats."""
-    with closing(AtlasFile(options.atlas)) as atlas:
+    with closing(AtlasFile(included_or(options.atlas))) as atlas:
         found = atlas_front(atlas, options.x, options.y)
         count = atlas.counts()[RowStatus.SOLVED]
     content = {"x": options.x, "y": options.y, "front": [table_row(*entry) for entry in found]}
@@ -109,8 +110,8 @@ def run_atlas_front(options: Namespace) -> int:
 
 
 def run_atlas_export(options: Namespace) -> int:
-    """Writes an atlas as CSV or Parquet."""
-    with closing(AtlasFile(options.atlas)) as atlas:
+    """Writes an atlas as CSV, as Parquet, or as a page with its map."""
+    with closing(AtlasFile(included_or(options.atlas))) as atlas:
         count = export_atlas(atlas, options.output)
     content = {"gaits": count, "file": str(options.output)}
     show(options, content, [f"Wrote {count:,} gaits to {options.output}."])
@@ -122,7 +123,7 @@ def run_atlas_open(options: Namespace) -> int:
     end_on_signals()
     if options.output is not None and options.output.suffix != ".json":
         raise InputError(f"{options.output} must end in .json; it becomes a gait file.", "-o")
-    with closing(AtlasFile(options.atlas)) as atlas:
+    with closing(AtlasFile(included_or(options.atlas))) as atlas:
         if options.output is None:
             opened = opened_point(atlas, options.id)
         else:

@@ -10,6 +10,7 @@ from core.atlas.space import MOST_SEED
 
 DEFAULT_COUNT = 10_000
 MOST_COUNT = 10_000_000
+ATLAS_HELP = "atlas file, or deltawalker-small: the one that comes with the program"
 MOST_WORKERS = 256
 
 
@@ -27,20 +28,20 @@ def add_atlas_commands(parser: argparse.ArgumentParser) -> None:
         command("run", commands.run_atlas_run, "Evaluate the gaits of a space; goes on with a file.")
     )
     _front_options(command("front", commands.run_atlas_front, "The gaits that no other one beats."))
-    text = "Write all gaits as CSV or Parquet."
+    text = "Write all gaits as CSV or Parquet, or a map of them as one HTML page."
     export = command("export", commands.run_atlas_export, text)
-    export.add_argument("atlas", type=Path, metavar="ATLAS", help="atlas file")
+    export.add_argument("atlas", type=Path, metavar="ATLAS", help=ATLAS_HELP)
     export.add_argument(
         "-o",
         "--output",
         type=Path,
         required=True,
         metavar="FILE",
-        help="FILE.csv or FILE.parquet",
+        help="FILE.csv, FILE.parquet or FILE.html",
     )
     text = "Solve a gait again, say whether the answer differs, and write it as a gait file."
     opened = command("open", commands.run_atlas_open, text)
-    opened.add_argument("atlas", type=Path, metavar="ATLAS", help="atlas file")
+    opened.add_argument("atlas", type=Path, metavar="ATLAS", help=ATLAS_HELP)
     opened.add_argument("id", type=whole(0, MOST_COUNT), metavar="ID", help="number of the gait")
     opened.add_argument(
         "-o", "--output", type=Path, default=None, metavar="GAIT.json", help="gait file to write"
@@ -71,6 +72,6 @@ def _run_options(parser: argparse.ArgumentParser) -> None:
 
 def _front_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("atlas", type=Path, metavar="ATLAS", help="atlas file")
+    add("atlas", type=Path, metavar="ATLAS", help=ATLAS_HELP)
     add("--x", default="margin", metavar="KEY", help="a figure or a parameter (default margin)")
     add("--y", default="speed", metavar="KEY", help="another one (default speed)")

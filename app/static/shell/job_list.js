@@ -27,16 +27,19 @@ const isTiming = (job) => job.kind === "timing";
 const isSimulation = (job) => job.kind === "simulate";
 const isTracking = (job) => job.kind === "track";
 const isSearch = (job) => job.kind === "fastest";
+const isAtlas = (job) => job.kind === "atlas";
 const NAMES = { timing: "Fastest timing of", simulate: "Simulate" };
 
-/** What a job is called in the list: a tracking by its video, a search by its robot, all others by their gait. */
+/** What a job is called in the list: by its video, its robot or its atlas, and all others by their gait. */
 function titleOf(job) {
   if (isTracking(job)) return `Tracking ${job.video_name ?? job.gait_name}`;
+  if (isAtlas(job)) return `Atlas “${job.atlas}”`;
   return isSearch(job) ? `Fastest gait, ${job.gait_name}` : job.gait_name;
 }
-const spoken = (job) => (isTracking(job) || isSearch(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
+const spoken = (job) => (isTracking(job) || isSearch(job) || isAtlas(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
 function titleHelp(job) {
   if (isSearch(job)) return "Open this search and its table of results";
+  if (isAtlas(job)) return "Open the atlases, with their maps. You can go on with a run there";
   if (!isTracking(job)) return "Show the curve and the result of this job";
   return job.result?.trial ? "Open the trial of this video" : "Open this video";
 }
@@ -45,7 +48,7 @@ function figures(job) {
   const last = job.progress?.at(-1);
   if (isTracking(job)) return job.state === "running" ? `tracked ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
   if (isSimulation(job)) return job.state === "running" ? `simulated ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
-  if (isSearch(job)) return job.sentence;
+  if (isSearch(job) || isAtlas(job)) return job.sentence;
   if (jobIsOn(job)) return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
   if (job.state === "done" && job.result && isTiming(job)) return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
   if (job.state === "done" && job.result) return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
@@ -69,6 +72,7 @@ async function pick(store, id) {
   const job = store.state.jobs.find((one) => one.id === id);
   if (isTracking(job)) return store.set({ trialWanted: job.result?.trial ? { trial: job.result.trial } : { video: job.video } });
   if (isSearch(job)) return store.set({ fastestWanted: job.id });
+  if (isAtlas(job)) return store.set({ atlasWanted: job.atlas });
   const { selectGait } = await import("./gait_list.js");
   if (store.state.gaits.some((gait) => gait.id === job.gait)) await selectGait(store, job.gait);
   if (!isSimulation(job)) store.set({ shownJob: id });

@@ -3,7 +3,7 @@
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
  * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `tryout`, `worked`, `remedies`,
- * `iterate`, `formRefusal` (the edit behind `formError`), `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `fastestWanted`, `physicsSets`) belongs to this tab alone.
+ * `iterate`, `formRefusal` (the edit behind `formError`), `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `fastestWanted`, `atlasWanted`, `physicsSets`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -50,6 +50,7 @@ const INITIAL = Object.freeze({
   videoChanged: null,
   trialWanted: null,
   fastestWanted: null,
+  atlasWanted: null,
   physicsSets: 0,
   operator: "",
 });

@@ -140,7 +140,7 @@ def test_it_is_written_as_csv_and_as_parquet(atlas: AtlasFile, tmp_path: Path) -
     table = parquet.read_table(tmp_path / "all.parquet")
     assert table.num_rows == COUNT
     assert table.column("status").to_pylist() == [row.status.value for row in atlas.rows()]
-    with pytest.raises(InputError, match=r"must end in \.csv or \.parquet"):
+    with pytest.raises(InputError, match=r"must end in \.csv, \.parquet or \.html"):
         export_atlas(atlas, tmp_path / "all.xlsx")
 
 

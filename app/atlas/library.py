@@ -1,0 +1,151 @@
+"""The atlases of a data folder, by name, and those that come with the program."""
+
+import re
+from collections.abc import Iterator
+from contextlib import closing, contextmanager, suppress
+from pathlib import Path
+
+from app.atlas.atlas_file import AtlasFile
+from app.atlas.included import INCLUDED
+from app.common.json import Json
+from app.store.storage_errors import file_error
+from core.atlas.row import RowStatus
+from core.atlas.space import AtlasSpace, default_space
+from core.errors import FootfallError, InputError, NotFoundError, StateError
+
+FOLDER = "atlases"
+"""Where in the data folder they are."""
+SUFFIX, DELETED = ".sqlite", ".deleted"
+MOST_NAME = 60
+_NAME = re.compile(rf"[A-Za-z0-9][A-Za-z0-9 _.-]{{0,{MOST_NAME - 1}}}")
+
+
+class AtlasLibrary:
+    """Atlases as files of a folder; any thread may use it.
+
+    A deleted one can be brought back until the studio starts again.
+
+    Args:
+        folder: where they are; made when the first one is.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        for path in folder.glob(f"*{SUFFIX}{DELETED}"):
+            with suppress(OSError):
+                path.unlink()
+
+    def contents(self) -> list[Json]:
+        """What each atlas says of itself, included ones last; of one that cannot be read, why not."""
+        own = sorted(path.stem for path in self._folder.glob(f"*{SUFFIX}"))
+        return [self._content(name) for name in (*own, *INCLUDED)]
+
+    def content(self, name: str) -> Json:
+        """What an atlas says of itself, m and s.
+
+        Raises:
+            NotFoundError: there is none of that name.
+        """
+        self._path(name)
+        return self._content(name)
+
+    def _content(self, name: str) -> Json:
+        try:
+            with self.opened(name) as atlas:
+                counts, space = atlas.counts(), atlas.space
+                return {
+                    "name": name,
+                    "included": name in INCLUDED,
+                    "robot": space.robot,
+                    "kind": space.kind.value,
+                    "seed": space.seed,
+                    "gaits": sum(counts.values()),
+                    **{status.value: counts[status] for status in RowStatus},
+                    "fastest": atlas.fastest(),
+                    "program": atlas.version,
+                    "robot_hash": atlas.robot_hash,
+                    "robot_changed": atlas.robot_hash != space.robot_hash,
+                    "space_hash": space.hash,
+                    "bytes": atlas.path.stat().st_size,
+                }
+        except FootfallError as error:
+            return {"name": name, "included": False, "trouble": error.sentence}
+
+    @contextmanager
+    def opened(self, name: str) -> Iterator[AtlasFile]:
+        """An atlas for a while.
+
+        Raises:
+            NotFoundError: there is none of that name.
+            InputError: the file is no atlas that this program can read.
+        """
+        with closing(AtlasFile(self._path(name))) as atlas:
+            yield atlas
+
+    def started(self, name: str, space: AtlasSpace | None) -> AtlasFile:
+        """A new atlas, or one that is gone on with.
+
+        Args:
+            name: of the atlas.
+            space: what its gaits are drawn from; None for the space of the one that is there, or else the
+                default space of the DeltaWalker.
+
+        Raises:
+            InputError: it cannot have that name, or is of another space, robot or version.
+            StorageError: the disk does not take it.
+        """
+        if _NAME.fullmatch(name) is None or name.endswith((" ", ".")):
+            raise InputError(
+                f"The name of an atlas has 1 to {MOST_NAME} letters, digits, spaces, hyphens, dots and "
+                "underscores, and begins with a letter or a digit. Change it.",
+                "name",
+            )
+        _require_own(name)
+        path = self._folder / f"{name}{SUFFIX}"
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise file_error(error, self._folder) from error
+        if space is None and path.is_file():
+            with closing(AtlasFile(path)) as known:
+                space = known.space
+        return AtlasFile(path, space or default_space("deltawalker"))
+
+    def delete(self, name: str) -> None:
+        """Takes an atlas out of the list.
+
+        Raises:
+            NotFoundError: there is none of that name.
+            InputError: it comes with the program.
+        """
+        _require_own(name)
+        path = self._path(name)
+        path.replace(path.with_name(path.name + DELETED))
+
+    def restore(self, name: str) -> None:
+        """Brings back the atlas of that name that was deleted last.
+
+        Raises:
+            NotFoundError: none was deleted since the studio started.
+            StateError: there is another one of that name by now.
+        """
+        path = self._folder / f"{name}{SUFFIX}"
+        deleted = path.with_name(path.name + DELETED)
+        if _NAME.fullmatch(name) is None or not deleted.is_file():
+            raise NotFoundError(f"No atlas “{name}” was deleted since the studio started.", "name")
+        if path.exists():
+            raise StateError(f"There is another atlas “{name}” by now. Delete it first.", "name")
+        deleted.replace(path)
+
+    def _path(self, name: str) -> Path:
+        if name in INCLUDED:
+            return INCLUDED[name]
+        path = self._folder / f"{name}{SUFFIX}"
+        if _NAME.fullmatch(name) is None or not path.is_file():
+            raise NotFoundError(f"There is no atlas “{name}”.", "name")
+        return path
+
+
+def _require_own(name: str) -> None:
+    if name in INCLUDED:
+        raise InputError(f"The atlas {name} comes with the program and stays as it is.", "name")

@@ -14,7 +14,7 @@ from app.atlas.front import BETTER_SMALL, BY_SIZE, UNITS, front_keys
 from app.atlas.map_columns import choice_column, figure_column, number_column, range_column
 from app.common.json import Json
 from app.common.page_template import filled, script_json
-from core.atlas.axes import KEYS, ROBOT
+from core.atlas.axes import ROBOT
 from core.atlas.row import FIGURES, AtlasRow, RowStatus, results_hash
 from core.atlas.space import AtlasKind
 from core.data.tables import package_files
@@ -126,14 +126,14 @@ def _content(atlas: AtlasFile, results: _Results) -> Json:
 
 
 def _columns(atlas: AtlasFile, solved: Sequence[tuple[AtlasRow, Json]]) -> list[Json]:
-    """Figures, then parameters; figures that no gait has are left out."""
+    """Figures, then parameters, as rows have them; figures that no gait has are left out."""
     columns = []
     for name in FIGURES:
         values = np.array([getattr(row, name) for row, _ in solved], dtype=float)
         if np.isfinite(values).any():
             columns.append(_key(name) | {"is_figure": True, "is_number": True} | figure_column(values))
     numbers = front_keys(atlas)
-    for name in (*KEYS, *(key for key in numbers if key not in KEYS and key not in FIGURES)):
+    for name in solved[0][1]:
         written = [parameters[name] for _, parameters in solved]
         axis = atlas.space.axes.get(name)
         is_range = axis is not None and axis.low is not None

@@ -39,20 +39,20 @@ def make(page: Page, name: str, gaits: str) -> Locator:
 
 
 def test_an_atlas_is_made_and_leads_to_its_map(page: Page, studio: StudioProcess) -> None:
-    job = make(page, "small", "30")
+    job = make(page, "mine", "30")
     expect(job).to_contain_text("done")
     expect(job).to_contain_text(re.compile("30 gaits, [0-9]+ solved"))
     dialog = open_dialog(page)
-    row = dialog.get_by_role("row").filter(has_text="small")
+    row = dialog.get_by_role("row").filter(has_text="mine")
     expect(row).to_contain_text(re.compile(r"[0-9]\.[0-9]{2} mm/s"))
     assert findings(page) == []
     with page.context.expect_page() as opened:
-        row.get_by_role("link", name="Map of small").click()
+        row.get_by_role("link", name="Map of mine").click()
     expect(opened.value.get_by_role("heading", level=1)).to_contain_text("Atlas")
     opened.value.close()
     with page.expect_download() as saved:
-        row.get_by_role("link", name="small as CSV").click()
-    assert saved.value.suggested_filename == "small.csv"
+        row.get_by_role("link", name="mine as CSV").click()
+    assert saved.value.suggested_filename == "mine.csv"
 
 
 def test_a_run_shows_how_far_it_is_is_cancelled_and_goes_on(page: Page, studio: StudioProcess) -> None:

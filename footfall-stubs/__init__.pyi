@@ -192,6 +192,7 @@ def atlas(
     seed: int | None = None,
     workers: int | None = None,
     dask: str | None = None,
+    physics: str | int | None = None,
 ) -> Atlas: ...
 def segments(source: str | Path | Gait) -> Segments: ...
 def transition(

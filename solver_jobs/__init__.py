@@ -33,6 +33,7 @@ from solver_jobs.remedies.remedy import (
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
+from solver_jobs.workers.atlas_physics_service import PhysicsRun, PhysicsWorker
 from solver_jobs.workers.atlas_service import Chunk, ChunkRun, ChunkWorker, EvaluatedGaits, evaluated_chunk
 from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
 from solver_jobs.workers.fastest_search import FastestSearch, SearchStep, TriedGait, fastest_of
@@ -74,6 +75,8 @@ __all__ = [
     "MotionResult",
     "PatternSearch",
     "PatternSolver",
+    "PhysicsRun",
+    "PhysicsWorker",
     "PoseGaitSolver",
     "PoseProgress",
     "PoseResult",

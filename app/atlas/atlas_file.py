@@ -8,10 +8,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from app.atlas.physics_table import physics_rows, store_physics_row
 from app.common.json import Json
 from app.common.version import VERSION
 from app.store.storage_errors import storage_error
 from core.atlas.axes import KEYS
+from core.atlas.physics_row import PhysicsRow
 from core.atlas.point import AtlasPoint
 from core.atlas.row import FIGURES, AtlasRow, RowStatus, results_hash
 from core.atlas.space import AtlasSpace, space_from_table
@@ -144,6 +146,23 @@ class AtlasFile:
             query = "SELECT max(speed) FROM gaits WHERE status = ?"
             found = connection.execute(query, (RowStatus.SOLVED.value,)).fetchone()[0]
         return None if found is None else float(found)
+
+    def physics(self) -> dict[int, PhysicsRow]:
+        """What physics made of the gaits that were simulated, by their numbers."""
+        with self._reading() as connection:
+            return physics_rows(connection)
+
+    def add_physics(self, row: PhysicsRow) -> None:
+        """Stores what physics made of a gait; it is on disk when this ends without an error.
+
+        Args:
+            row: takes the place of an earlier one of the same gait.
+
+        Raises:
+            StorageError: the disk does not take it.
+        """
+        with self._reading() as connection:
+            store_physics_row(connection, row)
 
     @property
     def hash(self) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from app.atlas.atlas_file import AtlasFile
+from app.atlas.entries import entries_with_physics
 from app.atlas.map_page import map_page
 from app.common.json import Json
 from app.store.gait_files import write_atomically
@@ -46,7 +47,7 @@ def exported(atlas: AtlasFile, suffix: str) -> bytes:
     """
     if suffix == ".html":
         return map_page(atlas).encode()
-    entries = list(atlas.entries())
+    entries = list(entries_with_physics(atlas))
     return _csv(entries).encode() if suffix == ".csv" else _parquet(entries)
 
 

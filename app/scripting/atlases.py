@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass
@@ -13,10 +14,13 @@ import numpy as np
 
 from app.atlas.atlas_file import AtlasFile
 from app.atlas.dask_engine import DaskEngine
+from app.atlas.entries import entries_with_physics
 from app.atlas.export import table_row
 from app.atlas.front import atlas_front, front_keys
 from app.atlas.included import included_or
 from app.atlas.opening import opened_gait
+from app.atlas.physics import run_physics
+from app.atlas.physics_choice import physics_choice, physics_rule
 from app.atlas.run import Engine, LocalEngine, run_atlas
 from app.cli.atlas.commands import atlas_space
 from app.scripting.gaits import Gait
@@ -63,7 +67,7 @@ class Atlas:
             key: such as `speed` in m/s, `seconds`, `least_margin` in m, or `step_x` in m.
 
         Returns:
-            (solved,) SI.
+            (solved,) SI; a figure of physics, such as `walked`, is nan for gaits that were not simulated.
 
         Raises:
             InputError: the atlas has no such number.
@@ -79,7 +83,9 @@ class Atlas:
             known = front_keys(file)
             if key not in known:
                 raise InputError(f"The atlas has no “{key}”; choose among {', '.join(known)}.", "key")
-            return np.array([table_row(*entry)[key] for entry in file.entries(RowStatus.SOLVED)])
+            entries = list(entries_with_physics(file, RowStatus.SOLVED))
+        found = (table_row(*entry)[key] for entry in entries)
+        return np.array([np.nan if value is None else value for value in found], dtype=np.float64)
 
     def front(self, x: str = "margin", y: str = "speed") -> list[dict[str, Any]]:
         """Solved gaits that no other one beats in one of two keys without losing in the other.
@@ -89,7 +95,8 @@ class Atlas:
             y: another one.
 
         Returns:
-            Of each its `id`, figures and parameters in SI (m, s, rad); the best in `y` first.
+            Of each its `id`, figures, parameters and figures of physics in SI (m, s, rad); the best in `y`
+            first.
 
         Raises:
             InputError: the atlas has no such key.
@@ -156,6 +163,7 @@ def atlas(
     seed: int | None = None,
     workers: int | None = None,
     dask: str | None = None,
+    physics: str | int | None = None,
 ) -> Atlas:
     """Evaluates thousands of gaits and keeps them in a file, or opens such a file.
 
@@ -167,12 +175,15 @@ def atlas(
         seed: of the draw; None for that of the space.
         workers: processes on this computer; None for one a core.
         dask: `local`, or the address of a Dask scheduler; None for processes of this computer.
+        physics: which solved gaits are simulated with variations, in processes of this computer: `front`,
+            `all`, or the size of a sample; None for none.
 
     Returns:
         The atlas. Lengths are in m, angles in rad, times in s.
 
     Raises:
         InputError: something does not fit, or the file is of another space.
+        UserWarning: a sample is larger than the number of solved gaits; all of them are simulated.
         NotFoundError: there is no such file, and `count` is None.
         StateError: a cluster went away; what was computed is kept.
 
@@ -183,9 +194,12 @@ def atlas(
         <Atlas small.sqlite: 4 solved, 0 infeasible, 0 failed>
     """
     where = included_or(Path(path)) if count is None else Path(path)
+    rule = None if physics is None else physics_rule(physics, "physics")
     with closing(AtlasFile(where, None if count is None else _space(robot, space, seed))) as file:
         if count is not None:
             _run(file, count, workers, dask)
+        if rule is not None:
+            _simulate(file, rule, workers)
         counts = {status.value: number for status, number in file.counts().items()}
         return Atlas(where, file.space.content(), counts, file.hash)
 
@@ -205,3 +219,16 @@ def _run(file: AtlasFile, count: int, workers: int | None, dask: str | None) -> 
     engine: Engine = LocalEngine(processes) if dask is None else DaskEngine(dask, processes)
     with progress_bar("Atlas") as tell:
         run_atlas(file, count, engine, lambda progress: tell(progress.done / max(progress.count, 1)))
+
+
+def _simulate(file: AtlasFile, rule: str | int, workers: int | None) -> None:
+    choice = physics_choice(file, rule)
+    if choice.notice is not None:
+        warnings.warn(choice.notice, stacklevel=3)
+    with progress_bar("Physics") as tell:
+        run_physics(
+            file,
+            choice,
+            workers or os.cpu_count() or 1,
+            lambda progress: tell((progress.done + progress.begun) / max(progress.count, 1)),
+        )

@@ -12,7 +12,7 @@ from core.motion.trajectory import Trajectory
 from core.problem.motion_check import check_motion
 from core.robot.model import RobotModel
 from core.wire.robot_time import estimate_seconds, largest_moves, stop_seconds
-from core.wire.waypoint_merging import plan_waypoints
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from solver_jobs.live.solve import quick_motion
 
 SIDES = 32
@@ -27,23 +27,35 @@ def drawn_row(point: AtlasPoint, model: RobotModel) -> AtlasRow:
         model: its robot.
     """
     try:
-        gait = drawn_document(point, model, "drawn")
-        problem = motion_problem(gait, model)
-        motion = quick_motion(problem, SIDES)
-        if motion is None:
-            return AtlasRow(point.number, RowStatus.INFEASIBLE, "The live tier found no motion.")
-        check = check_motion(problem, motion)
-        if not check.confirmed:
-            return AtlasRow(point.number, RowStatus.FAILED, "The check does not confirm the motion.")
-        return _row(point.number, model, motion, gait.options.merge, gait.options.stop_bound)
+        drawn = drawn_plan(point, model)
+        return drawn if isinstance(drawn, AtlasRow) else planned_row(point.number, model, *drawn)
     except FootfallError as error:
         return AtlasRow(point.number, RowStatus.INFEASIBLE, error.sentence)
 
 
-def _row(
-    number: int, model: RobotModel, motion: Trajectory, merge: float, stop_bound: float | None
-) -> AtlasRow:
-    plan = plan_waypoints(model, motion, merge, stop_bound)
+def drawn_plan(point: AtlasPoint, model: RobotModel) -> tuple[Trajectory, WaypointPlan] | AtlasRow:
+    """The motion of one drawn gait with what is sent of it; its row where it has none.
+
+    Args:
+        point: its parameters.
+        model: its robot.
+
+    Raises:
+        FootfallError: a parameter is none that a drawn gait can have.
+    """
+    gait = drawn_document(point, model, "drawn")
+    problem = motion_problem(gait, model)
+    motion = quick_motion(problem, SIDES)
+    if motion is None:
+        return AtlasRow(point.number, RowStatus.INFEASIBLE, "The live tier found no motion.")
+    check = check_motion(problem, motion)
+    if not check.confirmed:
+        return AtlasRow(point.number, RowStatus.FAILED, "The check does not confirm the motion.")
+    return motion, plan_waypoints(model, motion, gait.options.merge, gait.options.stop_bound)
+
+
+def planned_row(number: int, model: RobotModel, motion: Trajectory, plan: WaypointPlan) -> AtlasRow:
+    """The row of a motion that the check confirms, by what is sent of it."""
     waypoints, body = plan.waypoints, motion.body_world
     seconds = estimate_seconds(waypoints)
     way = float(np.hypot(*(body[-1, :2] - body[0, :2])))

@@ -73,7 +73,12 @@ def simulate_together(
 
 
 def simulate_variations(
-    problem: SimulationProblem, count: int, seed: int, progress: Progress = lambda share: True
+    problem: SimulationProblem,
+    count: int,
+    seed: int,
+    progress: Progress = lambda share: True,
+    *,
+    threads: int | None = None,
 ) -> tuple[VariedRun, ...]:
     """Runs a problem under variations of its parameters, some at a time so that memory stays small.
 
@@ -82,6 +87,7 @@ def simulate_variations(
         count: how many variations.
         seed: of their parameters.
         progress: told the share that is done; false cancels.
+        threads: at most so many; by default as many as the machine has cores, up to `MOST_THREADS`.
 
     Raises:
         SimulationCancelledError: `progress` said so.
@@ -96,7 +102,7 @@ def simulate_variations(
         def tell(share: float, before: int = first, now: int = len(some)) -> bool:
             return progress((before + share * now) / count)
 
-        motions = simulate_together(problems, tell, time_step=VARIED_STEP)
+        motions = simulate_together(problems, tell, threads=threads, time_step=VARIED_STEP)
         done += [
             varied_run(variation, report(varied, motion))
             for variation, varied, motion in zip(some, problems, motions, strict=True)

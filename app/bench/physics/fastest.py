@@ -8,28 +8,19 @@ from app.bench.common.measure import Row
 from app.bench.robot.timed_board import timed_moves
 from app.bench.solvers.fastest_times import solve_times
 from app.emulator.profiles import ProfileName
-from app.simulation.problem import way_problem
-from core.arrays import Floats
 from core.gait.gait import heading_angle
 from core.library.library import library
-from core.motion.trajectory import Trajectory
-from core.physics.masses import default_physics
 from core.physics.metrics import report
-from core.physics.problem import SimulationProblem
+from core.physics.pose_gait_problem import pose_gait_problem
 from core.pose_gaits.motion_in_move import least_arm_distance
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
 from core.pose_gaits.start_motion import TURN_GUESS
-from core.problem.motion_problem import turned_about_z
 from core.robot.model import load_robot
-from core.wire.waypoint_merging import plan_of_knots
-from core.wire.waypoints import Waypoints
 from solver_jobs import PoseResult, simulate, simulate_variations, solve_poses
 
 BOARD_CYCLES = 4
 """Cycles in mid-walk whose mean is the speed on the board; one more runs before."""
-PHYSICS_CYCLES = 2
-"""Cycles in mid-walk that physics walks."""
 VARIATIONS = 64
 NO_WAY = 1e-6
 """A planned way that is shorter is none, m."""
@@ -157,7 +148,7 @@ def board_seconds(gait: PoseGait, profile: ProfileName) -> float:
 
 
 def _physics(gait: PoseGait, variations: int) -> Row:
-    problem = simulation_of(gait)
+    problem = pose_gait_problem(gait)
     figures = report(problem, simulate(problem))
     row: Row = {
         "physics_way_%": round(100.0 * figures.distance / figures.planned_distance, 1)
@@ -175,41 +166,3 @@ def _physics(gait: PoseGait, variations: int) -> Row:
         row["variations"] = f"{sum(run.walks for run in runs)} of {variations} walk"
         row["variations_fell"] = sum(run.fell for run in runs)
     return row
-
-
-def simulation_of(gait: PoseGait) -> SimulationProblem:
-    """What physics is asked of a gait: of one in mid-walk, two cycles."""
-    times = PHYSICS_CYCLES if gait.problem.cycles is None else 1
-    trajectory, waypoints = repeated(gait, times)
-    model = gait.problem.model
-    way = plan_of_knots(model, trajectory, waypoints)
-    return way_problem(model, trajectory, way, default_physics(model))
-
-
-def repeated(gait: PoseGait, times: int) -> tuple[Trajectory, Waypoints]:
-    """A gait in mid-walk run through several times: its motion, and its waypoints."""
-    motion = gait.trajectory
-    turn = float(motion.heading[-1] - motion.heading[0])
-
-    def joined(rows: Floats, offset: Floats | float = 0.0) -> Floats:
-        parts = [rows[1:] + number * offset for number in range(times)]
-        return np.concatenate([rows[:1], *parts])
-
-    def moved_on(places: Floats) -> Floats:
-        """Places in the world, each cycle where the one before it has taken the body."""
-        first, last = motion.body_world[0], motion.body_world[-1]
-        parts = [places]
-        for _ in range(times - 1):
-            parts.append(turned_about_z(parts[-1] - first, turn) + last)
-        return np.concatenate([places[:1], *(part[1:] for part in parts)])
-
-    strokes = joined(gait.strokes)
-    seconds = np.append(gait.waypoints.durations[:1], np.tile(gait.waypoints.durations[1:], times))
-    trajectory = Trajectory(
-        joined(motion.times, float(motion.times[-1])),
-        moved_on(motion.body_world),
-        joined(motion.heading, turn),
-        moved_on(motion.feet_world),
-        np.concatenate([motion.contact[:1], *[motion.contact[1:]] * times]),
-    )
-    return trajectory, Waypoints(strokes, seconds)

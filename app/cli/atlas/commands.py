@@ -16,7 +16,9 @@ from app.atlas.front import UNITS, atlas_front, value_of
 from app.atlas.included import included_or
 from app.atlas.opening import OpenedGait, opened_gait, opened_point
 from app.atlas.run import Engine, LocalEngine, Progress, run_atlas
-from app.cli.common.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
+from app.cli.atlas.physics import gait_content as physics_of_gait
+from app.cli.atlas.physics import gait_lines, run_lines, simulate_chosen
+from app.cli.common.output import INFEASIBLE, NOT_FIT, duration, end_on_signals, note, show
 from app.common.json import Json
 from app.documents.gait_json import gait_content
 from app.store.gait_files import write_atomically
@@ -40,8 +42,9 @@ def run_atlas_run(options: Namespace) -> int:
     engine = _engine(options)
     with closing(AtlasFile(options.output, space)) as atlas:
         progress = run_atlas(atlas, options.count, engine, _shown_progress())
+        _end_line()
         counts, digest = atlas.counts(), atlas.hash
-    _end_line()
+        physics = simulate_chosen(options, atlas, _workers(options))
     content = {
         "atlas": str(options.output),
         "evaluated": progress.evaluated,
@@ -50,6 +53,7 @@ def run_atlas_run(options: Namespace) -> int:
         "hash": digest,
         "robot": space.robot,
         "space_hash": space.hash,
+        "physics": physics,
     }
     total = sum(counts.values())
     rate = f", {progress.evaluated / progress.seconds:.0f} a second" if progress.evaluated else ""
@@ -58,6 +62,7 @@ def run_atlas_run(options: Namespace) -> int:
         f"{counts[RowStatus.INFEASIBLE]:,} infeasible, {counts[RowStatus.FAILED]:,} failed.",
         f"{progress.evaluated:,} were evaluated in {progress.seconds:.1f} s{rate}.",
         f"Hash of the results: {digest}",
+        *run_lines(physics),
         f"footfall atlas front {options.output} shows the best of them.",
     ]
     show(options, content, lines)
@@ -128,10 +133,12 @@ def run_atlas_open(options: Namespace) -> int:
             opened = opened_point(atlas, options.id)
         else:
             opened = opened_gait(atlas, options.id, _shown_search)
+        physics = atlas.physics().get(options.id)
     if opened.document is not None:
         text = json.dumps(gait_content(opened.document), ensure_ascii=False)
         write_atomically(options.output, text + "\n")
-    show(options, _opened_content(opened, options.output), _opened_lines(opened, options.output))
+    content = {**_opened_content(opened, options.output), "physics": physics_of_gait(physics)}
+    show(options, content, _opened_lines(opened, options.output) + gait_lines(physics))
     return 0 if opened.agrees else NOT_FIT
 
 
@@ -187,8 +194,12 @@ def _from_stance_words(opened: OpenedGait, walk: PoseGait) -> str:
     )
 
 
+def _workers(options: Namespace) -> int:
+    return options.workers or max(os.cpu_count() or 1, 1)
+
+
 def _engine(options: Namespace) -> Engine:
-    workers = options.workers or max(os.cpu_count() or 1, 1)
+    workers = _workers(options)
     return LocalEngine(workers) if options.dask is None else DaskEngine(options.dask, workers)
 
 
@@ -202,7 +213,7 @@ def _shown_progress() -> Callable[[Progress], object]:
         if not sys.stderr.isatty():
             return
         left = progress.seconds_left
-        words = "" if left is None else f", {_duration(left)} left"
+        words = "" if left is None else f", {duration(left)} left"
         sys.stderr.write(
             f"\r\033[K{progress.done:,} of {progress.count:,} gaits, {progress.solved:,} solved{words}"
         )
@@ -221,11 +232,3 @@ def _shown_search(progress: PoseProgress) -> bool:
 def _end_line() -> None:
     if sys.stderr.isatty():
         note("")
-
-
-def _duration(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    if hours:
-        return f"{hours} h {minutes} min"
-    return f"{minutes} min {rest} s" if minutes else f"{rest} s"

@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
+from app.atlas.physics_choice import physics_rule
 from app.cli.atlas import commands
 from app.cli.common.argument_types import add_robot, whole
 from core.atlas.space import MOST_SEED
@@ -66,8 +67,15 @@ def _run_options(parser: argparse.ArgumentParser) -> None:
     add("--workers", type=whole(1, MOST_WORKERS), default=None, metavar="N", help=text)
     text = "work on a Dask cluster: “local”, or the scheduler's address such as tcp://node1:8786"
     add("--dask", default=None, metavar="local|ADDRESS", help=text)
+    text = "simulate solved gaits with variations: those of the front, all, or a sample of N"
+    add("--physics", type=_physics_rule, default=None, metavar="front|all|N", help=text)
     text = "ATLAS.sqlite, made or gone on with"
     add("-o", "--output", type=Path, required=True, metavar="ATLAS.sqlite", help=text)
+
+
+def _physics_rule(text: str) -> str | int:
+    """An argument type: which gaits are simulated."""
+    return physics_rule(text, "--physics")
 
 
 def _front_options(parser: argparse.ArgumentParser) -> None:

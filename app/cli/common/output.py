@@ -48,6 +48,15 @@ def note(text: str) -> None:
     write(sys.stderr, text + "\n")
 
 
+def duration(seconds: float) -> str:
+    """A time for people, such as `2 min 5 s`."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    if hours:
+        return f"{hours} h {minutes} min"
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
+
+
 def write(stream: TextIO, text: str) -> None:
     """Writes text at once. Where nobody is left to read it, what follows is dropped: a run has to go on.
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.bench.physics.fastest import FastCase, bench_walks, repeated
+from app.bench.physics.fastest import FastCase, bench_walks
 from app.bench.solvers.fastest_times import solve_times
+from core.physics.pose_gait_problem import repeated
 from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import load_robot
 from solver_jobs import solve_poses

@@ -72,6 +72,9 @@ def test_a_space_becomes_an_atlas_whose_best_gaits_are_shown_and_opened(
         (("run", "--count", "0", "-o", "a.sqlite"), "--count"),
         (("run", "--dask", "node1", "-o", "a.sqlite"), "--dask is node1; it must be “local”"),
         (("run", "--robot", "hexapod", "--space", "SPACE", "-o", "a.sqlite"), "is a space of deltawalker"),
+        (("run", "--physics", "0", "-o", "a.sqlite"), "--physics is 0; it must be front, all, or the size"),
+        (("run", "--physics", "foo", "-o", "a.sqlite"), "--physics is foo; it must be front, all, or"),
+        (("run", "--physics", "1.5", "-o", "a.sqlite"), "--physics is 1.5; it must be front, all, or"),
         (("front", "none.sqlite"), "There is no atlas none.sqlite"),
         (("open", "none.sqlite", "3"), "There is no atlas none.sqlite"),
         (("export", "none.sqlite", "-o", "a.csv"), "There is no atlas none.sqlite"),
@@ -96,10 +99,10 @@ def command(*arguments: str) -> list[str]:
     return [sys.executable, "-m", "app", "atlas", *arguments, "--json"]
 
 
-def count_of(path: Path) -> int:
+def count_of(path: Path, table: str = "gaits") -> int:
     connection = sqlite3.connect(path, timeout=20)
     try:
-        return int(connection.execute("SELECT count(*) FROM gaits").fetchone()[0])
+        return int(connection.execute(f"SELECT count(*) FROM {table}").fetchone()[0])
     except sqlite3.OperationalError:
         return 0
     finally:
@@ -173,3 +176,51 @@ def test_a_cluster_of_which_a_worker_is_killed_gives_the_same_hash(tmp_path: Pat
     answer, expected = json.loads(output), json.loads(first.stdout)
     assert answer["evaluated"] == 800
     assert answer["hash"] == expected["hash"]
+
+
+@pytest.mark.heavy
+def test_physics_of_the_front_is_printed_exported_and_not_simulated_twice(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, space: Path, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("app.cli.atlas.physics.VARIATIONS", 2)
+    atlas = str(tmp_path / "atlas.sqlite")
+    asked = ("atlas", "run", "--space", str(space), "--count", "8", "--workers", "1", "-o", atlas)
+    status, plain = run_json(capsys, *asked)
+    assert (status, plain["physics"]) == (0, None)
+    status, made = run_json(capsys, *asked, "--physics", "front")
+    assert (status, made["hash"]) == (0, plain["hash"])
+    physics = made["physics"]
+    assert physics["rule"] == "front"
+    assert physics["simulated"] == physics["chosen"] >= 1
+    assert physics["walk_in_all"] <= physics["chosen"]
+    assert physics["variations"] == 2
+    status, again = run_json(capsys, *asked, "--physics", "front")
+    assert again["physics"] == physics | {"simulated": 0, "seconds": again["physics"]["seconds"]}
+    status, shown = run_json(capsys, "atlas", "front", atlas, "--y", "walked")
+    best = shown["front"][0]
+    assert 0.0 <= best["walked"] <= 1.0
+    status, opened = run_json(capsys, "atlas", "open", atlas, str(best["id"]))
+    assert opened["physics"]["walked"] == best["walked"]
+    status, words, _ = run(capsys, "atlas", "open", atlas, str(best["id"]))
+    assert "of 2 variations walk." in words
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("ending", [signal.SIGKILL, signal.SIGINT])
+def test_simulations_that_are_ended_go_on(space: Path, tmp_path: Path, ending: signal.Signals) -> None:
+    atlas = tmp_path / "atlas.sqlite"
+    asked = command("run", "--space", str(space), "--count", "8", "--workers", "2", "-o", str(atlas))
+    process = subprocess.Popen(
+        [*asked, "--physics", "3"], cwd=PROJECT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    deadline = time.monotonic() + 300.0
+    while not (atlas.exists() and count_of(atlas, "physics")):
+        assert time.monotonic() < deadline, "no gait was simulated"
+        time.sleep(0.1)
+    process.send_signal(ending)
+    assert process.wait(timeout=20) != 0
+    done = count_of(atlas, "physics")
+    assert 1 <= done < 3
+    again = subprocess.run([*asked, "--physics", "3"], cwd=PROJECT, capture_output=True, check=True)
+    physics = json.loads(again.stdout)["physics"]
+    assert (physics["chosen"], physics["simulated"]) == (3, 3 - done)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.bench.physics.fastest import simulation_of
 from core.library.library import Group, group_ids, library
 from core.physics.metrics import report
+from core.physics.pose_gait_problem import pose_gait_problem
 from core.physics.problem import SimulationProblem
 from core.pose_gaits.gait_poses import found_gait
 from core.robot.model import load_robot
@@ -20,7 +20,7 @@ def simulation(gait_id: str) -> SimulationProblem:
     gait = library()[gait_id].gait
     poses = found_gait(gait, load_robot(gait.robot))
     assert poses is not None
-    return simulation_of(poses)
+    return pose_gait_problem(poses)
 
 
 @pytest.mark.heavy

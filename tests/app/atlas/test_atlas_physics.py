@@ -17,14 +17,21 @@ from app.atlas.physics import PhysicsProgress, run_physics
 from app.atlas.physics_choice import PhysicsChoice, physics_choice, physics_rule
 from app.simulation.problem import way_problem
 from core.atlas.physics_row import PHYSICS_FIGURES, PhysicsRow
-from core.atlas.row import AtlasRow, RowStatus
+from core.atlas.row import RowStatus
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import InputError
 from core.physics.masses import default_physics
 from core.physics.metrics import report
 from core.physics.pose_gait_problem import PHYSICS_CYCLES, repeated
 from core.wire.waypoint_merging import plan_of_knots
-from solver_jobs import drawn_points, evaluated_chunk, evaluated_point, simulate, simulate_variations
+from solver_jobs import (
+    EvaluatedGaits,
+    drawn_points,
+    evaluated_chunk,
+    evaluated_point,
+    simulate,
+    simulate_variations,
+)
 
 SPACE = space_from_table(
     {"seed": 3, "vary": {"order": ["1,2,3,4"], "step_x": [0.010, 0.020], "margin": [0.003, 0.006, 0.008]}},
@@ -35,19 +42,19 @@ COUNT = 12
 
 def filled(path: Path, space: AtlasSpace = SPACE, count: int = COUNT) -> AtlasFile:
     made = AtlasFile(path, space)
-    made.add(evaluated_chunk(space.content(), 0, count), drawn_points(space, 0, count))
+    made.add(evaluated_chunk(space.content(), 0, count))
     return made
 
 
 @pytest.fixture(scope="module")
-def rows() -> list[AtlasRow]:
+def gaits() -> EvaluatedGaits:
     return evaluated_chunk(SPACE.content(), 0, COUNT)
 
 
 @pytest.fixture
-def atlas(tmp_path: Path, rows: list[AtlasRow]) -> Iterator[AtlasFile]:
+def atlas(tmp_path: Path, gaits: EvaluatedGaits) -> Iterator[AtlasFile]:
     made = AtlasFile(tmp_path / "atlas.sqlite", SPACE)
-    made.add(rows, drawn_points(SPACE, 0, COUNT))
+    made.add(gaits)
     yield made
     made.close()
 
@@ -73,7 +80,7 @@ def test_rules_name_the_front_all_or_a_sample(atlas: AtlasFile) -> None:
 
 def test_another_seed_draws_another_sample(atlas: AtlasFile, tmp_path: Path) -> None:
     other = AtlasFile(tmp_path / "seed.sqlite", AtlasSpace(SPACE.robot, SPACE.kind, 4, SPACE.axes))
-    other.add(list(atlas.rows()), drawn_points(SPACE, 0, COUNT))
+    other.add(list(zip(drawn_points(SPACE, 0, COUNT), atlas.rows(), strict=True)))
     assert numbers(physics_choice(other, 8)) != numbers(physics_choice(atlas, 8))
     other.close()
 

@@ -8,8 +8,10 @@ import sqlite3
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import footfall
 from app.atlas.atlas_file import AtlasFile
 from app.atlas.export import export_atlas
 from app.atlas.front import atlas_front, front_keys
@@ -242,3 +244,23 @@ def test_drawn_gaits_are_simulated_as_a_whole(tmp_path: Path) -> None:
     assert row.reason == ""
     assert row.simulated_speed == pytest.approx(choice.rows[0].speed, rel=0.1)
     atlas.close()
+
+
+def test_python_takes_the_same_rules(atlas: AtlasFile) -> None:
+    solved = [row.number for row in atlas.rows(RowStatus.SOLVED)]
+    for number in solved:
+        atlas.add_physics(made_up(number, 0.5))
+    opened = footfall.atlas(atlas.path, physics="front")
+    assert opened.values("walked").tolist() == [0.5] * len(solved)
+    with pytest.warns(UserWarning, match="A sample of 500 gaits is more than"):
+        footfall.atlas(atlas.path, physics=500)
+    with pytest.raises(footfall.InputError, match="physics is some; it must be front, all, or"):
+        footfall.atlas(atlas.path, physics="some")
+
+
+def test_python_gives_nan_for_gaits_that_were_not_simulated(atlas: AtlasFile) -> None:
+    solved = [row.number for row in atlas.rows(RowStatus.SOLVED)]
+    atlas.add_physics(made_up(solved[1], 0.5))
+    values = footfall.atlas(atlas.path).values("walked")
+    assert values[1] == 0.5
+    assert np.isnan(np.delete(values, 1)).all()

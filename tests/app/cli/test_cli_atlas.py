@@ -25,6 +25,14 @@ step_x = [0.010, 0.020]
 margin = [0.003, 0.006, 0.008]
 """
 
+WITH_ONE_VARIATION = """
+import sys
+from app.cli import main
+from app.cli.atlas import physics
+physics.VARIATIONS = 1
+sys.exit(main(sys.argv[1:]))
+"""
+
 
 @pytest.fixture(scope="module")
 def space(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -209,10 +217,9 @@ def test_physics_of_the_front_is_printed_exported_and_not_simulated_twice(
 @pytest.mark.parametrize("ending", [signal.SIGKILL, signal.SIGINT])
 def test_simulations_that_are_ended_go_on(space: Path, tmp_path: Path, ending: signal.Signals) -> None:
     atlas = tmp_path / "atlas.sqlite"
-    asked = command("run", "--space", str(space), "--count", "8", "--workers", "2", "-o", str(atlas))
-    process = subprocess.Popen(
-        [*asked, "--physics", "3"], cwd=PROJECT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
+    asked = ["atlas", "run", "--space", str(space), "--count", "8", "--workers", "2", "-o", str(atlas)]
+    whole = [sys.executable, "-c", WITH_ONE_VARIATION, *asked, "--physics", "3", "--json"]
+    process = subprocess.Popen(whole, cwd=PROJECT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     deadline = time.monotonic() + 300.0
     while not (atlas.exists() and count_of(atlas, "physics")):
         assert time.monotonic() < deadline, "no gait was simulated"
@@ -221,6 +228,6 @@ def test_simulations_that_are_ended_go_on(space: Path, tmp_path: Path, ending: s
     assert process.wait(timeout=20) != 0
     done = count_of(atlas, "physics")
     assert 1 <= done < 3
-    again = subprocess.run([*asked, "--physics", "3"], cwd=PROJECT, capture_output=True, check=True)
+    again = subprocess.run(whole, cwd=PROJECT, capture_output=True, check=True)
     physics = json.loads(again.stdout)["physics"]
     assert (physics["chosen"], physics["simulated"]) == (3, 3 - done)

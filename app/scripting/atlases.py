@@ -87,6 +87,30 @@ class Atlas:
         found = (table_row(*entry)[key] for entry in entries)
         return np.array([np.nan if value is None else value for value in found], dtype=np.float64)
 
+    def rows(self, status: str | None = "solved") -> list[dict[str, Any]]:
+        """Its gaits as rows of a table, such as `pandas.DataFrame` takes, in the order of their numbers.
+
+        Args:
+            status: `solved`, `infeasible` or `failed`; None for all.
+
+        Returns:
+            Of each its `id`, `status`, `reason`, figures, parameters and figures of physics in SI (m, s, rad).
+
+        Raises:
+            InputError: there is no such status.
+
+        Example:
+            >>> import footfall as ff
+            >>> ff.atlas("deltawalker-small").rows("failed")[0]["status"]
+            'failed'
+        """
+        known = [one.value for one in RowStatus]
+        if status is not None and status not in known:
+            raise InputError(f"status is {status!r}; it must be one of {', '.join(known)}.", "status")
+        with closing(AtlasFile(self.path)) as file:
+            wanted = None if status is None else RowStatus(status)
+            return [table_row(*entry) for entry in entries_with_physics(file, wanted)]
+
     def front(self, x: str = "margin", y: str = "speed") -> list[dict[str, Any]]:
         """Solved gaits that no other one beats in one of two keys without losing in the other.
 

@@ -20,7 +20,7 @@ LISTED = re.compile(r"^\| \[[^\]]+\]\(notebooks/(\w+)\.ipynb\) \| [^|]{10,} \|$"
 PLACES = re.compile(r"/(?:home|root|tmp|work|Users|var)/|[A-Z]:\\|[0-9]{4}-[0-9]{2}-[0-9]{2}T")
 """Paths of a computer, and times of day."""
 MOST_BYTES, CELLS = 150_000, range(6, 16)
-COUNT = 10
+COUNT = 11
 QUICK = ("06_limbs_held_up", "10_export_for_others")
 """The notebooks that `python -m tests --all` runs."""
 ALL_SECONDS = 300

@@ -94,7 +94,7 @@ class Atlas:
             status: `solved`, `infeasible` or `failed`; None for all.
 
         Returns:
-            Of each its `id`, `status`, `reason`, figures, parameters and figures of physics in SI (m, s, rad).
+            Of each its `id`, `status`, `reason`, figures, parameters and figures of physics, in SI.
 
         Raises:
             InputError: there is no such status.

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from app.bench.common.measure import Row, conditions
 from app.bench.page.advice import bench_advice
+from app.bench.page.atlas import bench_atlas
 from app.bench.page.edits import bench_page
 from app.bench.page.gait_list import bench_gait_list
 from app.bench.page.scene import bench_scene
@@ -57,10 +58,11 @@ BENCHMARKS: dict[str, Benchmark] = {
     "video": bench_video,
     "page": bench_page,
     "advice": bench_advice,
+    "atlas": bench_atlas,
     "gaits": bench_gait_list,
     "scene": bench_scene,
 }
 """Every benchmark by its name."""
 
-BY_NAME_ONLY = frozenset({"page", "advice", "gaits", "scene", "learning"})
+BY_NAME_ONLY = frozenset({"page", "advice", "atlas", "gaits", "scene", "learning"})
 """Those that need what is not installed with the program."""

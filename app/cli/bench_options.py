@@ -25,7 +25,12 @@ _LIMITS = ("orders", "steps", "margins", "stop_bounds")
 def add_bench_options(parser: argparse.ArgumentParser) -> None:
     """Adds names and options of `bench`."""
     add = parser.add_argument
-    add("names", nargs="*", metavar="NAME", help="none: all but page, gaits, scene and learning")
+    add(
+        "names",
+        nargs="*",
+        metavar="NAME",
+        help="none: all but page, advice, atlas, gaits, scene and learning",
+    )
     add("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
     add("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
     text = "folder of published data (physics, learning)"

@@ -8,7 +8,7 @@ from core.atlas.physics_row import PhysicsRow
 from core.atlas.row import AtlasRow
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import StateError
-from solver_jobs.workers.spawning import BACKGROUND_NICENESS
+from solver_jobs.workers.spawning import IDLE_NICENESS
 from solver_jobs.workers.task_service import Task, TaskService
 from solver_jobs.workers.task_worker import Report, run_tasks
 
@@ -46,7 +46,7 @@ class PhysicsWorker(TaskService[PhysicsRun]):
     """Simulates gaits of an atlas in a process of its own, one after the other."""
 
     def __init__(self) -> None:
-        super().__init__("simulator of the atlas", run_physics_worker, niceness=BACKGROUND_NICENESS)
+        super().__init__("simulator of the atlas", run_physics_worker, niceness=IDLE_NICENESS)
 
     def submit(
         self,

@@ -8,7 +8,7 @@ from core.atlas.point import AtlasPoint
 from core.atlas.row import AtlasRow
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import StateError
-from solver_jobs.workers.spawning import BACKGROUND_NICENESS
+from solver_jobs.workers.spawning import IDLE_NICENESS
 from solver_jobs.workers.task_service import Task, TaskService
 from solver_jobs.workers.task_worker import Report, run_tasks
 
@@ -56,7 +56,7 @@ class ChunkWorker(TaskService[ChunkRun]):
     """Evaluates chunks in a process of its own, one after the other."""
 
     def __init__(self) -> None:
-        super().__init__("worker of the atlas", run_atlas_worker, niceness=BACKGROUND_NICENESS)
+        super().__init__("worker of the atlas", run_atlas_worker, niceness=IDLE_NICENESS)
 
     def submit(
         self, space: AtlasSpace, chunk: Chunk, progress: Callable[[float], object] = lambda share: None

@@ -21,6 +21,9 @@ _STARTING = threading.Lock()
 BACKGROUND_NICENESS = 10
 """Niceness of background workers, which yield to the page and to live results."""
 
+IDLE_NICENESS = 19
+"""Niceness of workers for hours of work, which take what nobody else wants."""
+
 
 def start_process(
     body: Callable[[Connection, Any], None], warm_up: Any, name: str, niceness: int = NICENESS
@@ -72,4 +75,6 @@ def _stand_back(
         signal.signal(signal.SIGHUP, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(niceness)
+    if niceness == IDLE_NICENESS and hasattr(os, "SCHED_IDLE"):
+        os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
     body(pipe, warm_up)

@@ -83,16 +83,38 @@ def bench_page(drags: int = DRAGS) -> list[Row]:
     with headless_browser() as browser, served_studio() as address:
         page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
         page.goto(address)
-        page.wait_for_function(_READY, timeout=READY_MS)
-        watch(page)
+        wait_until_ready(page)
         # The gait that opens first is one for the robot's clock: every edit adapts its last poses.
         numbers = {"goal": _drag_goal, "number": _drag_number}
         rows = _rows(page, {f"{name}, for the robot": drag for name, drag in numbers.items()}, drags)
-        page.get_by_role("list", name="Gaits").get_by_role("button", name="Walk 10 mm").first.click()
-        page.wait_for_timeout(5 * REST_MS)
+        open_drawn_walk(page, address)
         rows += _rows(page, {"timeline": _drag_timeline, **numbers}, drags)
         _open_long_timeline(page, address)
         return [*rows, _row(page, NAME, _drag_block, drags)]
+
+
+def wait_until_ready(page: Page) -> None:
+    """Waits until a page shows its 3D preview, and begins to watch its tasks and frames."""
+    page.wait_for_function(_READY, timeout=READY_MS)
+    watch(page)
+
+
+def open_drawn_walk(page: Page, address: str) -> None:
+    """Opens the drawn walk of the library."""
+    page.goto(f"{address}?gait=walk")
+    wait_until_ready(page)
+    page.wait_for_timeout(5 * REST_MS)
+
+
+def bench_drags(page: Page, drags: int) -> list[Row]:
+    """Drags timeline cells, the goal and a number of a drawn gait that is shown.
+
+    Args:
+        page: shows it.
+        drags: of each kind.
+    """
+    ways = {"timeline": _drag_timeline, "goal": _drag_goal, "number": _drag_number}
+    return [_row(page, name, drag, drags) for name, drag in ways.items()]
 
 
 def _rows(page: Page, ways: dict[str, Callable[[Page], None]], drags: int) -> list[Row]:

@@ -7,6 +7,7 @@ import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from urllib.parse import quote
 
 from app.atlas.physics_table import physics_rows, store_physics_row
 from app.common.json import Json
@@ -23,6 +24,8 @@ from solver_jobs import Chunk, EvaluatedGaits
 FORMAT, FORMAT_VERSION = "footfall-atlas", 1
 CHUNK = 400
 """Gaits of a chunk, which are evaluated together and stored in one transaction."""
+PAGE = 10_000
+"""Rows that are read at one time."""
 WAIT_SECONDS = 30.0
 """How long another program may write to the file before it counts as busy."""
 _TABLES = f"""
@@ -62,7 +65,11 @@ class AtlasFile:
             raise NotFoundError(f"There is no atlas {path}. Make one with footfall atlas run.", str(path))
         is_new = not path.exists() or path.stat().st_size == 0
         with self._sentences():
-            self._connection = sqlite3.connect(path, check_same_thread=False, timeout=WAIT_SECONDS)
+            # A file that is only read is not made where somebody has just taken it away.
+            address = f"file:{quote(str(path.absolute()))}?mode={'rw' if space is None else 'rwc'}"
+            self._connection = sqlite3.connect(
+                address, uri=True, check_same_thread=False, timeout=WAIT_SECONDS
+            )
             try:
                 if is_new and space is not None:
                     self._make(space)
@@ -119,12 +126,17 @@ class AtlasFile:
 
     def entries(self, status: RowStatus | None = None) -> Iterator[tuple[AtlasRow, Json]]:
         """Rows in the order of their numbers, each with its parameters as JSON content."""
-        wanted = ("WHERE status = ?", (status.value,)) if status is not None else ("", ())
-        query = f"SELECT {', '.join(_COLUMNS)} FROM gaits {wanted[0]} ORDER BY id"
-        with self._reading() as connection:
-            found = connection.execute(query, wanted[1]).fetchall()
-        for values in found:
-            yield _row(values), json.loads(values[-1])
+        wanted = ("AND status = ?", (status.value,)) if status is not None else ("", ())
+        query = f"SELECT {', '.join(_COLUMNS)} FROM gaits WHERE id > ? {wanted[0]} ORDER BY id LIMIT {PAGE}"
+        last = -1
+        while True:
+            with self._reading() as connection:
+                found = connection.execute(query, (last, *wanted[1])).fetchall()
+            for values in found:
+                yield _row(values), json.loads(values[-1])
+            if len(found) < PAGE:
+                return
+            last = found[-1][0]
 
     def entry(self, number: int) -> tuple[AtlasRow, Json]:
         """One gait's row and parameters.
@@ -174,6 +186,19 @@ class AtlasFile:
         """SHA-256 of the robot's parameters with which it was made."""
         return self._about()["robot_hash"]
 
+    def require_same_robot(self) -> None:
+        """The robot's parameters are still those with which the atlas was made.
+
+        Raises:
+            InputError: they are not.
+        """
+        if self.space.robot_hash != self.robot_hash:
+            raise InputError(
+                f"The parameters of {self.space.robot} have changed since {self.path} was made, so its gaits "
+                "are those of another robot. Run the atlas again into another file.",
+                str(self.path),
+            )
+
     def _make(self, space: AtlasSpace) -> None:
         about = {
             "format": FORMAT,
@@ -195,8 +220,11 @@ class AtlasFile:
         """
         try:
             about = self._about()
+            missing = {"format", "version", "program", "space", "space_hash", "robot_hash"} - set(about)
         except sqlite3.DatabaseError as error:
             raise InputError(f"{self.path} is no atlas. Choose another file.", str(self.path)) from error
+        if missing:
+            raise InputError(f"{self.path} is no atlas. Choose another file.", str(self.path))
         if about.get("format") != FORMAT:
             raise InputError(f"{self.path} is no atlas. Choose another file.", str(self.path))
         if about["version"] != str(FORMAT_VERSION):

@@ -63,7 +63,9 @@ def front_keys(atlas: AtlasFile) -> tuple[str, ...]:
     return (*FIGURES, *physics, *NUMBERS, *own)
 
 
-def atlas_front(atlas: AtlasFile, x: str = "margin", y: str = "speed") -> list[tuple[AtlasRow, Json]]:
+def atlas_front(
+    atlas: AtlasFile, x: str = "margin", y: str = "speed", where: tuple[str, str] = ("x", "y")
+) -> list[tuple[AtlasRow, Json]]:
     """Solved gaits that no other one beats in one of two keys without losing in the other.
 
     By a figure of physics only gaits that have it are compared.
@@ -72,15 +74,17 @@ def atlas_front(atlas: AtlasFile, x: str = "margin", y: str = "speed") -> list[t
         atlas: the file.
         x: a figure or a parameter.
         y: another one.
+        where: what a refusal calls the two.
 
     Returns:
         Rows, and parameters with figures of physics; the best in `y` first.
 
     Raises:
         InputError: the atlas has no such key.
+        StorageError: the disk does not give it.
     """
     known = front_keys(atlas)
-    for option, key in (("--x", x), ("--y", y)):
+    for option, key in zip(where, (x, y), strict=True):
         if key not in known:
             raise InputError(_unknown_key(option, key, known), option)
     entries = [
@@ -109,7 +113,7 @@ def value_of(row: AtlasRow, parameters: Json, key: str) -> float:
 def _unknown_key(option: str, key: str, known: tuple[str, ...]) -> str:
     """Why a key cannot be chosen, in sentences."""
     if key in PHYSICS_FIGURES:
-        return f"{option} is {key}, and no gait was simulated. Run footfall atlas run --physics front first."
+        return f"{option} is {key}, and no gait was simulated yet (footfall atlas run --physics front)."
     return f"{option} is {key}; it must be one of {', '.join(known)}."
 
 

@@ -30,18 +30,21 @@ class AtlasLibrary:
     """
 
     def __init__(self, folder: Path) -> None:
-        self._folder = folder
+        self._folder = folder.absolute()
         for path in folder.glob(f"*{SUFFIX}{DELETED}"):
             with suppress(OSError):
                 path.unlink()
 
     def contents(self) -> list[Json]:
-        """What each atlas says of itself, included ones last; of one that cannot be read, why not."""
+        """A summary of each atlas, included ones last; of one that cannot be read, why not."""
         own = sorted(path.stem for path in self._folder.glob(f"*{SUFFIX}"))
-        return [self._content(name) for name in (*own, *INCLUDED)]
+        return [
+            *(self._content(name) for name in own if name not in INCLUDED and _NAME.fullmatch(name)),
+            *map(self._content, INCLUDED),
+        ]
 
     def content(self, name: str) -> Json:
-        """What an atlas says of itself, m and s.
+        """The summary of an atlas, m/s.
 
         Raises:
             NotFoundError: there is none of that name.
@@ -66,10 +69,10 @@ class AtlasLibrary:
                     "robot_hash": atlas.robot_hash,
                     "robot_changed": atlas.robot_hash != space.robot_hash,
                     "space_hash": space.hash,
-                    "bytes": atlas.path.stat().st_size,
+                    "bytes": atlas.path.stat().st_size if atlas.path.exists() else 0,
                 }
         except FootfallError as error:
-            return {"name": name, "included": False, "trouble": error.sentence}
+            return {"name": name, "included": name in INCLUDED, "trouble": error.sentence}
 
     @contextmanager
     def opened(self, name: str) -> Iterator[AtlasFile]:
@@ -120,7 +123,7 @@ class AtlasLibrary:
         """
         _require_own(name)
         path = self._path(name)
-        path.replace(path.with_name(path.name + DELETED))
+        _move(path, path.with_name(path.name + DELETED))
 
     def restore(self, name: str) -> None:
         """Brings back the atlas of that name that was deleted last.
@@ -135,15 +138,22 @@ class AtlasLibrary:
             raise NotFoundError(f"No atlas “{name}” was deleted since the studio started.", "name")
         if path.exists():
             raise StateError(f"There is another atlas “{name}” by now. Delete it first.", "name")
-        deleted.replace(path)
+        _move(deleted, path)
 
     def _path(self, name: str) -> Path:
         if name in INCLUDED:
             return INCLUDED[name]
         path = self._folder / f"{name}{SUFFIX}"
         if _NAME.fullmatch(name) is None or not path.is_file():
-            raise NotFoundError(f"There is no atlas “{name}”.", "name")
+            raise NotFoundError(f"There is no atlas “{name}” (see GET /api/atlases).", "name")
         return path
+
+
+def _move(path: Path, to: Path) -> None:
+    try:
+        path.replace(to)
+    except OSError as error:
+        raise file_error(error, to) from error
 
 
 def _require_own(name: str) -> None:

@@ -10,11 +10,14 @@ from types import MappingProxyType
 import numpy as np
 
 from app.atlas.atlas_file import AtlasFile
+from app.atlas.entries import entries_with_physics
 from app.atlas.front import BETTER_SMALL, BY_SIZE, UNITS, front_keys
+from app.atlas.included import INCLUDED
 from app.atlas.map_columns import choice_column, figure_column, number_column, range_column
 from app.common.json import Json
 from app.common.page_template import filled, script_json
 from core.atlas.axes import ROBOT
+from core.atlas.physics_row import PHYSICS_FIGURES, physics_content
 from core.atlas.row import FIGURES, AtlasRow, RowStatus, results_hash
 from core.atlas.space import AtlasKind
 from core.data.tables import package_files
@@ -29,6 +32,12 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "body_move": "Longest move of the body",
         "stroke_use": "Motor range used",
         "stop_seconds": "Longest time to a stop",
+        "walked": "Variations that walk in physics",
+        "simulated_speed": "Speed in physics",
+        "simulated_turn_rate": "Turn rate in physics",
+        "max_tilt": "Largest lean in physics",
+        "swing_load": "Load in swings in physics",
+        "slip": "Slip in physics",
         "order": "Foot order",
         "overlap": "Overlapping swings",
         "moves": "Parts of each move",
@@ -103,7 +112,7 @@ def _part(name: str) -> str:
 
 def _results(atlas: AtlasFile) -> _Results:
     """Everything in one look, so that a run that goes on meanwhile changes nothing."""
-    entries = list(atlas.entries())
+    entries = list(entries_with_physics(atlas))
     rows = [row for row, _ in entries]
     known = Counter(row.status for row in rows)
     reasons = Counter(row.reason for row in rows if row.status is RowStatus.INFEASIBLE)
@@ -120,20 +129,28 @@ def _content(atlas: AtlasFile, results: _Results) -> Json:
         "count": len(results.solved),
         "ids": number_column(numbers, 1.0),
         "columns": _columns(atlas, results.solved) if results.solved else [],
-        "open": [f"footfall atlas open {shlex.quote(atlas.path.name)} ", " -o gait.json" if has_file else ""],
+        "open": [f"footfall atlas open {shlex.quote(_named(atlas))} ", " -o gait.json" if has_file else ""],
         "opens_as_file": has_file,
     }
+
+
+def _named(atlas: AtlasFile) -> str:
+    """How a command names it."""
+    return next((name for name, path in INCLUDED.items() if path == atlas.path), str(atlas.path))
 
 
 def _columns(atlas: AtlasFile, solved: Sequence[tuple[AtlasRow, Json]]) -> list[Json]:
     """Figures, then parameters, as rows have them; figures that no gait has are left out."""
     columns = []
-    for name in FIGURES:
-        values = np.array([getattr(row, name) for row, _ in solved], dtype=float)
+    figures = [(name, [getattr(row, name) for row, _ in solved]) for name in FIGURES]
+    figures += [(name, [parameters[name] for _, parameters in solved]) for name in PHYSICS_FIGURES]
+    for name, found in figures:
+        values = np.array([np.nan if value is None else value for value in found], dtype=float)
         if np.isfinite(values).any():
             columns.append(_key(name) | {"is_figure": True, "is_number": True} | figure_column(values))
     numbers = front_keys(atlas)
-    for name in solved[0][1]:
+    physics = physics_content(None)
+    for name in (name for name in solved[0][1] if name not in physics):
         written = [parameters[name] for _, parameters in solved]
         axis = atlas.space.axes.get(name)
         is_range = axis is not None and axis.low is not None

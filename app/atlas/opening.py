@@ -9,7 +9,6 @@ from core.atlas.documents import drawn_document, pose_document
 from core.atlas.near_walk import near_walk
 from core.atlas.row import AtlasRow
 from core.atlas.space import AtlasKind
-from core.errors import InputError
 from core.gait.gait import Gait
 from core.pose_gaits.gait_poses import pose_problem, with_poses
 from core.pose_gaits.pose_gait import PoseGait
@@ -67,12 +66,7 @@ def opened_point(atlas: AtlasFile, number: int) -> OpenedGait:
         InputError: the robot's parameters are no longer those of the atlas.
     """
     stored, parameters = atlas.entry(number)
-    if atlas.space.robot_hash != atlas.robot_hash:
-        raise InputError(
-            f"The parameters of {atlas.space.robot} have changed since {atlas.path} was made, so its gaits "
-            "are those of another robot. Run the atlas again into another file.",
-            str(atlas.path),
-        )
+    atlas.require_same_robot()
     cycle, row = evaluated_point(atlas.space, number)
     return OpenedGait(stored, row, parameters, cycle)
 

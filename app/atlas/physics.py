@@ -9,7 +9,6 @@ from app.atlas.atlas_file import AtlasFile
 from app.atlas.physics_choice import PhysicsChoice
 from core.atlas.physics_row import PhysicsRow
 from core.atlas.row import AtlasRow
-from core.errors import InputError
 from solver_jobs import PhysicsRun, PhysicsWorker
 
 VARIATIONS = 16
@@ -70,12 +69,7 @@ def run_physics(
         StorageError: the disk takes no more; what was stored before stays.
         StateError: a simulator ended more than once with the same gait.
     """
-    if atlas.space.robot_hash != atlas.robot_hash:
-        raise InputError(
-            f"The parameters of {atlas.space.robot} have changed since {atlas.path} was made, so its gaits "
-            "are those of another robot. Run the atlas again into another file.",
-            str(atlas.path),
-        )
+    atlas.require_same_robot()
     begin = time.monotonic()
     known = atlas.physics()
     kept = [known[row.number] for row in choice.rows if _is_kept(known.get(row.number), variations)]

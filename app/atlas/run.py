@@ -69,10 +69,11 @@ class LocalEngine:
 
     Args:
         workers: how many.
+        is_idle: whether they run only while a core is free.
     """
 
-    def __init__(self, workers: int) -> None:
-        self._workers = workers
+    def __init__(self, workers: int, is_idle: bool = False) -> None:
+        self._workers, self._is_idle = workers, is_idle
 
     def run(
         self, space: AtlasSpace, chunks: list[Chunk], go_on: Callable[[], bool]
@@ -83,7 +84,7 @@ class LocalEngine:
             StateError: a worker ended more than once with the same chunk.
         """
         waiting = chunks[::-1]
-        services = [ChunkWorker() for _ in range(min(self._workers, len(chunks)))]
+        services = [ChunkWorker(self._is_idle) for _ in range(min(self._workers, len(chunks)))]
         running: dict[int, tuple[Chunk, ChunkRun]] = {}
         try:
             while (waiting or running) and go_on():

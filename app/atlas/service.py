@@ -1,4 +1,4 @@
-"""Runs of atlases as jobs of the studio: one at a time, in processes that stand back behind all else."""
+"""Runs of atlases as jobs of the studio: one at a time, in processes that run only while a core is free."""
 
 import logging
 import os
@@ -69,37 +69,56 @@ class AtlasService:
         self._tracker = JobTracker(job_repository, later, shown, "The first gaits are evaluated.")
         self._on: tuple[AtlasJob, threading.Thread] | None = None
         self._closed = False
+        self._lock = threading.Lock()
 
-    def submit(self, name: str, space: AtlasSpace | None, count: int) -> Json:
-        """Evaluates the gaits that an atlas does not have yet.
+    def opened(self, name: str, space: AtlasSpace | None) -> AtlasFile:
+        """The file of a run; any thread may ask, since opening may wait for the disk.
 
         Args:
             name: of the atlas; a new one is made.
             space: what its gaits are drawn from; None for its own, or else the default space.
-            count: how many gaits it is to have.
 
         Raises:
             InputError: it cannot have that name, or is of another space, robot or version.
             StateError: a run is on.
             StorageError: the disk does not take it.
         """
-        if self._running is not None:
-            raise StateError("An atlas is being made. Wait for it, or cancel it in Jobs.", "atlas")
-        atlas = self.library.started(name, space)
-        job_id, work = uuid.uuid4().hex[:12], AtlasJob(name)
+        self._require_none()
+        return self.library.started(name, space)
+
+    def submit(self, name: str, atlas: AtlasFile, count: int) -> Json:
+        """Evaluates the gaits that an atlas does not have yet.
+
+        Args:
+            name: of the atlas.
+            atlas: its file; closed at the end of the run, or when it is refused.
+            count: how many gaits it is to have.
+
+        Raises:
+            StateError: a run is on, or the studio is closing.
+        """
         try:
-            known = {"share": 0.0, "atlas": name, "count": count, "done": sum(atlas.counts().values())}
-            job = self._job_repository.begin(job_id, KIND, "", name, "", **known)
+            with self._lock:
+                self._require_none()
+                job_id, work = uuid.uuid4().hex[:12], AtlasJob(name)
+                known = {"share": 0.0, "atlas": name, "count": count, "done": 0}
+                job = self._job_repository.begin(job_id, KIND, "", name, "", **known)
+                self._tracker.begin(job_id, work)
+                thread = threading.Thread(
+                    target=self._run, args=(job_id, atlas, count, work), name="atlas", daemon=True
+                )
+                self._on = work, thread
+                thread.start()
         except BaseException:
             atlas.close()
             raise
-        self._tracker.begin(job_id, work)
-        thread = threading.Thread(
-            target=self._run, args=(job_id, atlas, count, work), name="atlas", daemon=True
-        )
-        self._on = work, thread
-        thread.start()
         return job
+
+    def _require_none(self) -> None:
+        if self._closed:
+            raise StateError("The studio is closing.", "studio")
+        if self._running is not None:
+            raise StateError("An atlas is being made. Wait for it, or cancel it in Jobs.", "atlas")
 
     @property
     def _running(self) -> AtlasJob | None:
@@ -122,16 +141,19 @@ class AtlasService:
         self.library.delete(name)
 
     def _run(self, job_id: str, atlas: AtlasFile, count: int, work: AtlasJob) -> None:
-        tell = self._tracker.teller(job_id)
+        tell, last = self._tracker.teller(job_id), ""
 
-        def told(progress: Progress) -> None:
-            share = progress.done / max(progress.count, 1)
-            tell(share, {"done": progress.done, "count": progress.count, "sentence": _sentence(progress)})
+        def show(progress: Progress) -> None:
+            nonlocal last
+            sentence = _sentence(progress)
+            if sentence != last:
+                last, share = sentence, progress.done / max(progress.count, 1)
+                tell(share, {"done": progress.done, "count": progress.count, "sentence": sentence})
 
         try:
             with closing(atlas):
-                engine = LocalEngine(max(1, (os.cpu_count() or 1) // CORES_A_WORKER))
-                progress = run_atlas(atlas, count, engine, told, lambda: not work.is_ending)
+                engine = LocalEngine(max(1, (os.cpu_count() or 1) // CORES_A_WORKER), is_idle=True)
+                progress = run_atlas(atlas, count, engine, show, lambda: not work.is_ending)
                 end = _end(progress)
         except FootfallError as error:
             end = {"state": "failed", "sentence": error.sentence}
@@ -143,7 +165,8 @@ class AtlasService:
 
     def close(self) -> None:
         """Ends the run that is on; what is computed is kept."""
-        self._closed = True
+        with self._lock:
+            self._closed = True
         if self._on is not None:
             work, thread = self._on
             work.cancel()

@@ -6,6 +6,7 @@ from fastapi import APIRouter, Query, Response
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
+from app.atlas.atlas_file import AtlasFile
 from app.atlas.export import MEDIA_TYPES, exported, table_row
 from app.atlas.front import atlas_front
 from app.atlas.library import MOST_NAME
@@ -44,7 +45,7 @@ class AtlasBody(RequestBody):
         default=None, max_length=MOST_SPACE, description="TOML; null for the robot's default space"
     )
 
-    def asked(self) -> AtlasSpace | None:
+    def space_asked(self) -> AtlasSpace | None:
         """The space that is asked for; None for that of the atlas, or else the default space.
 
         Raises:
@@ -73,15 +74,19 @@ async def list_atlases(studio: TheStudio) -> Json:
 @router.post("", status_code=202)
 async def make_atlas(body: AtlasBody, studio: TheStudio) -> Json:
     """Starts a job that evaluates the gaits which an atlas does not have yet."""
-    space = await run_in_threadpool(body.asked)
+
+    def opened() -> AtlasFile:
+        return studio.atlases.opened(body.name, body.space_asked())
+
+    atlas = await run_in_threadpool(opened)
     return await on_command_thread(
-        studio, lambda: studio.job_commands.submit_atlas(body.name, space, body.count)
+        studio, lambda: studio.job_commands.submit_atlas(body.name, atlas, body.count)
     )
 
 
 @router.get("/{name}")
 async def read_atlas(name: str, studio: TheStudio) -> Json:
-    """What an atlas says of itself."""
+    """The summary of an atlas."""
     return await run_in_threadpool(studio.atlases.library.content, name)
 
 

@@ -17,7 +17,7 @@ from app.atlas.dask_engine import DaskEngine
 from app.atlas.entries import entries_with_physics
 from app.atlas.export import table_row
 from app.atlas.front import atlas_front, front_keys
-from app.atlas.included import included_or
+from app.atlas.included import INCLUDED, included_or
 from app.atlas.opening import opened_gait
 from app.atlas.physics import run_physics
 from app.atlas.physics_choice import physics_choice, physics_rule
@@ -219,6 +219,11 @@ def atlas(
     """
     where = included_or(Path(path)) if count is None else Path(path)
     rule = None if physics is None else physics_rule(physics, "physics")
+    if rule is not None and where in INCLUDED.values():
+        raise InputError(
+            f"The atlas {path} comes with the program and stays as it is. Make one of your own with count.",
+            "physics",
+        )
     with closing(AtlasFile(where, None if count is None else _space(robot, space, seed))) as file:
         if count is not None:
             _run(file, count, workers, dask)

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 
+from app.atlas.atlas_file import AtlasFile
 from app.atlas.service import KIND as ATLAS
 from app.atlas.service import AtlasService
 from app.common.json import Json
@@ -18,7 +19,6 @@ from app.studio.publisher import Publisher
 from app.undo.history import Author
 from app.videos.tracking_service import KIND as TRACK
 from app.videos.tracking_service import TrackingJob, TrackingService
-from core.atlas.space import AtlasSpace
 from core.errors import StateError
 from solver_jobs import JobKind
 
@@ -98,9 +98,9 @@ class JobCommands:
         """Starts a search for the fastest gait."""
         return self.publisher.publish_job(self.fastest.submit(request, has_front))
 
-    def submit_atlas(self, name: str, space: AtlasSpace | None, count: int) -> Json:
-        """Starts a run of an atlas."""
-        return self.publisher.publish_job(self.atlases.submit(name, space, count))
+    def submit_atlas(self, name: str, atlas: AtlasFile, count: int) -> Json:
+        """Starts a run of an atlas, whose file it closes at the end."""
+        return self.publisher.publish_job(self.atlases.submit(name, atlas, count))
 
     def cancel_job(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""

@@ -2,7 +2,6 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -13,19 +12,19 @@ from core.atlas.space import AtlasKind, AtlasSpace
 from core.errors import FootfallError
 from core.pose_gaits.pose_check import PoseCheck, check_poses
 from core.pose_gaits.pose_gait import PoseGait
-from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
+from core.pose_gaits.pose_problem import PoseProblem
 from solver_jobs.atlas.draw import drawn_points
 from solver_jobs.atlas.layout import MM, Asked, Layout
-from solver_jobs.atlas.postures import Postures
+from solver_jobs.atlas.postures import Poses, Postures
 from solver_jobs.atlas.search import KEPT, Found, Search
 
 TOGETHER = 48
 """Gaits that are searched together; more need more memory, fewer more time."""
 HEIGHT_ROOM = 2.0
 """How far the actuator plane of a pose may be from the height that is asked, mm."""
-ARMS_FARTHER = 0.0005
-"""How much farther apart arms are kept in a second search, m, where the checker finds them too near within a
-move: the search looks at fewer places."""
+ARMS_FARTHER = 0.5
+"""How much farther apart arms are kept where the check finds them too near within a move, mm: the search
+looks at fewer places."""
 WORDS = {
     "stop bound": "stop bound",
     "stroke": "motors' range",
@@ -124,41 +123,40 @@ def pose_gaits(space: AtlasSpace, points: Sequence[AtlasPoint]) -> list[tuple[Po
     """
     model = space.model(points[0].numbers)
     problems = [point.pose_problem(model) for point in points]
-    answers = _searched(points, problems, problems[0].bounds)
-    missed = [place for place, (_, row) in enumerate(answers) if row.status is RowStatus.FAILED]
-    if missed:
-        bounds = problems[0].bounds
-        farther = replace(bounds, arm_distance=bounds.arm_distance + ARMS_FARTHER)
-        again = _searched([points[place] for place in missed], [problems[place] for place in missed], farther)
-        for place, answer in zip(missed, again, strict=True):
-            if answer[1].status is RowStatus.SOLVED:
-                answers[place] = answer
-    return answers
-
-
-def _searched(
-    points: Sequence[AtlasPoint], problems: Sequence[PoseProblem], bounds: PoseBounds
-) -> list[tuple[PoseGait | None, AtlasRow]]:
-    """Motions and rows as the search finds them within bounds; the checker holds them to their own ones."""
     layout = Layout(problems[0])
     asked = _asked(points, problems)
-    found = Search(layout, asked, bounds, HEIGHT_ROOM).run()
-    poses = Postures(layout, asked).poses(found.unknowns)
-    answers: list[tuple[PoseGait | None, AtlasRow]] = []
-    for place, (point, problem) in enumerate(zip(points, problems, strict=True)):
-        if not found.residual[place] < KEPT:
-            answers.append((None, _infeasible(point, found, place)))
-            continue
-        gait = PoseGait(
-            problem,
-            point.step,
-            poses.bodies[place] / MM,
-            poses.headings[place],
-            poses.feet[place] / MM,
-            poses.strokes[place] / MM,
-        )
-        answers.append(_checked(point, gait))
+    search, postures = Search(layout, asked, problems[0].bounds, HEIGHT_ROOM), Postures(layout, asked)
+    found = search.run()
+    answers: list[tuple[PoseGait | None, AtlasRow]] = [
+        (None, _infeasible(point, found, place)) for place, point in enumerate(points)
+    ]
+    poses, too_near = postures.poses(found.unknowns), []
+    for place in np.nonzero(found.residual < KEPT)[0].tolist():
+        gait = _gait(points[place], problems[place], poses, place)
+        check = check_poses(gait)
+        answers[place] = _checked(points[place], gait, check)
+        if check.figures.arm_distance < problems[place].bounds.arm_distance:
+            too_near.append(place)
+    if too_near:
+        farther = search.with_arms_farther(found, too_near, ARMS_FARTHER)
+        poses = postures.poses(farther.unknowns)
+        for place in too_near:
+            gait = _gait(points[place], problems[place], poses, place)
+            if farther.residual[place] < KEPT and (check := check_poses(gait)).confirmed:
+                answers[place] = _checked(points[place], gait, check)
     return answers
+
+
+def _gait(point: AtlasPoint, problem: PoseProblem, poses: Poses, place: int) -> PoseGait:
+    """The motion of one of many gaits."""
+    return PoseGait(
+        problem,
+        point.step,
+        poses.bodies[place] / MM,
+        poses.headings[place],
+        poses.feet[place] / MM,
+        poses.strokes[place] / MM,
+    )
 
 
 def _asked(points: Sequence[AtlasPoint], problems: Sequence[PoseProblem]) -> Asked:
@@ -182,8 +180,7 @@ def _infeasible(point: AtlasPoint, found: Found, place: int) -> AtlasRow:
     return AtlasRow(point.number, RowStatus.INFEASIBLE, f"Prevented by: {reason}.")
 
 
-def _checked(point: AtlasPoint, gait: PoseGait) -> tuple[PoseGait | None, AtlasRow]:
-    check = check_poses(gait)
+def _checked(point: AtlasPoint, gait: PoseGait, check: PoseCheck) -> tuple[PoseGait | None, AtlasRow]:
     if not check.confirmed:
         reason = f"The check does not confirm it. {check.findings[0].sentence}"
         return None, AtlasRow(point.number, RowStatus.FAILED, reason)

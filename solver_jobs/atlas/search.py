@@ -1,6 +1,7 @@
 """Motions of many gaits with one layout: convex steps until every limit is kept, or no step helps."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,6 +103,23 @@ class Search:
         for gait in np.nonzero(kept & (longer.missed < KEPT) & (longer.residual < KEPT))[0]:
             found.unknowns[gait] = longer.unknowns[gait]
         return found
+
+    def with_arms_farther(self, found: Found, places: Sequence[int], distance: float) -> Found:
+        """Goes on with some gaits until their arms are so much farther apart than asked.
+
+        Args:
+            found: of the search; it stays as it is.
+            places: of these gaits.
+            distance: mm.
+        """
+        chosen = np.zeros(self.asked.count, dtype=np.bool_)
+        chosen[list(places)] = True
+        farther, bounds = found.copied(), self.bounds
+        farther.residual[chosen], farther.missed[chosen] = np.inf, 0.0
+        self.bounds = replace(bounds, arm_distance=bounds.arm_distance + distance / MM)
+        self._polish(farther, chosen, None)
+        self.bounds = bounds
+        return farther
 
     def _polish(self, found: Found, chosen: Bools, wanted: Floats | None) -> None:
         """Steps until the limits themselves are kept; tells the residual of all that are chosen."""

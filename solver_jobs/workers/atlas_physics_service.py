@@ -8,7 +8,8 @@ from core.atlas.physics_row import PhysicsRow
 from core.atlas.row import AtlasRow
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import StateError
-from solver_jobs.workers.spawning import IDLE_NICENESS
+from solver_jobs.workers.atlas_service import IDLE_SILENCE_SECONDS
+from solver_jobs.workers.spawning import BACKGROUND_NICENESS
 from solver_jobs.workers.task_service import Task, TaskService
 from solver_jobs.workers.task_worker import Report, run_tasks
 
@@ -31,6 +32,10 @@ class PhysicsTask:
 class PhysicsRun(Task[PhysicsTask, float, PhysicsRow]):
     """One gait that is being simulated."""
 
+    def latest(self, begun: float, heard: float) -> float:
+        """An idle worker may wait long for a free core."""
+        return heard + IDLE_SILENCE_SECONDS
+
     def unanswered(self, seconds: float) -> PhysicsRow:
         """Nothing comes of a simulation that did not end.
 
@@ -46,7 +51,7 @@ class PhysicsWorker(TaskService[PhysicsRun]):
     """Simulates gaits of an atlas in a process of its own, one after the other."""
 
     def __init__(self) -> None:
-        super().__init__("simulator of the atlas", run_physics_worker, niceness=IDLE_NICENESS)
+        super().__init__("simulator of the atlas", run_physics_worker, niceness=BACKGROUND_NICENESS)
 
     def submit(
         self,

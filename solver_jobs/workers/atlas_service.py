@@ -8,7 +8,7 @@ from core.atlas.point import AtlasPoint
 from core.atlas.row import AtlasRow
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import StateError
-from solver_jobs.workers.spawning import IDLE_NICENESS
+from solver_jobs.workers.spawning import BACKGROUND_NICENESS, IDLE_NICENESS
 from solver_jobs.workers.task_service import Task, TaskService
 from solver_jobs.workers.task_worker import Report, run_tasks
 
@@ -34,12 +34,18 @@ class ChunkTask:
     chunk: Chunk
 
 
+IDLE_SILENCE_SECONDS = 3600.0
+"""A worker that tells nothing for so long is stuck; its steps are limited in number, not in time."""
 EvaluatedGaits = list[tuple[AtlasPoint, AtlasRow]]
 """Gaits in the order of their numbers, each with what came of it."""
 
 
 class ChunkRun(Task[ChunkTask, float, EvaluatedGaits]):
     """One chunk that is being evaluated."""
+
+    def latest(self, begun: float, heard: float) -> float:
+        """An idle worker may wait long for a free core."""
+        return heard + IDLE_SILENCE_SECONDS
 
     def unanswered(self, seconds: float) -> EvaluatedGaits:
         """Nothing comes of a chunk that did not end.
@@ -53,10 +59,15 @@ class ChunkRun(Task[ChunkTask, float, EvaluatedGaits]):
 
 
 class ChunkWorker(TaskService[ChunkRun]):
-    """Evaluates chunks in a process of its own, one after the other."""
+    """Evaluates chunks in a process of its own, one after the other.
 
-    def __init__(self) -> None:
-        super().__init__("worker of the atlas", run_atlas_worker, niceness=IDLE_NICENESS)
+    Args:
+        is_idle: whether it runs only while a core is free, as in a studio with people at its pages.
+    """
+
+    def __init__(self, is_idle: bool = False) -> None:
+        niceness = IDLE_NICENESS if is_idle else BACKGROUND_NICENESS
+        super().__init__("worker of the atlas", run_atlas_worker, niceness=niceness)
 
     def submit(
         self, space: AtlasSpace, chunk: Chunk, progress: Callable[[float], object] = lambda share: None

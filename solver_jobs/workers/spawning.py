@@ -6,7 +6,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from types import ModuleType
@@ -22,7 +22,7 @@ BACKGROUND_NICENESS = 10
 """Niceness of background workers, which yield to the page and to live results."""
 
 IDLE_NICENESS = 19
-"""Niceness of workers for hours of work, which take what nobody else wants."""
+"""Niceness of workers for hours of work, which run only while a core is free."""
 
 
 def start_process(
@@ -76,5 +76,6 @@ def _stand_back(
     if hasattr(os, "nice"):
         os.nice(niceness)
     if niceness == IDLE_NICENESS and hasattr(os, "SCHED_IDLE"):
-        os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
+        with suppress(OSError):  # some containers forbid it; the niceness holds anyway
+            os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
     body(pipe, warm_up)

@@ -100,7 +100,7 @@ def atlas_space(robot: str | None, path: Path | None, seed: int | None) -> Atlas
 def run_atlas_front(options: Namespace) -> int:
     """Prints the gaits of an atlas that no other one beats."""
     with closing(AtlasFile(included_or(options.atlas))) as atlas:
-        found = atlas_front(atlas, options.x, options.y)
+        found = atlas_front(atlas, options.x, options.y, ("--x", "--y"))
         count = atlas.counts()[RowStatus.SOLVED]
     content = {"x": options.x, "y": options.y, "front": [table_row(*entry) for entry in found]}
     lines = [f"{len(found)} of {count:,} solved gaits are on the front:"]

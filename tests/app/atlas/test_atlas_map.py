@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from hypothesis import strategies as st
 
 from app.atlas.atlas_file import AtlasFile
 from app.atlas.export import export_atlas
+from app.atlas.included import INCLUDED
 from app.atlas.map_columns import DIGITS, choice_column, figure_column, number_column, range_column
 from app.atlas.map_page import MOST_REASONS, map_page
 from app.common.version import VERSION
@@ -100,7 +102,13 @@ def test_texts_of_an_atlas_cannot_end_the_script(atlas: AtlasFile) -> None:
     assert page.count("</script>") == 2
     assert "all &amp; &lt;b&gt;.sqlite" in page
     assert "<b>" not in page
-    assert data(page)["open"] == ["footfall atlas open 'all & <b>.sqlite' ", " -o gait.json"]
+    assert data(page)["open"] == [f"footfall atlas open '{atlas.path}' ", " -o gait.json"]
+
+
+def test_the_command_of_the_included_atlas_names_it_as_commands_do() -> None:
+    (name,) = INCLUDED
+    with closing(AtlasFile(INCLUDED[name])) as included:
+        assert data(map_page(included))["open"][0] == f"footfall atlas open {name} "
 
 
 def test_nothing_is_fetched_from_elsewhere(atlas: AtlasFile) -> None:

@@ -113,12 +113,12 @@ def test_a_chosen_gait_shows_its_figures_and_the_command_that_opens_it(page: Pag
     details = page.get_by_role("region", name=f"Gait {number}")
     expect(details.locator("#figures")).to_contain_text(f"{row.speed * 1000:.2f} mm/s")
     expect(details.locator("#parameters")).to_contain_text(f"{parameters['height'] * 1000:.1f} mm")
-    expect(details.locator("code")).to_have_text(f"footfall atlas open some.sqlite {number} -o gait.json")
+    expect(details.locator("code")).to_have_text(f"footfall atlas open {atlas.path} {number} -o gait.json")
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     details.get_by_role("button", name="Copy").click()
     expect(details.get_by_role("button")).to_have_text("Copied")
     copied = page.evaluate("navigator.clipboard.readText()")
-    assert copied == f"footfall atlas open some.sqlite {number} -o gait.json"
+    assert copied == f"footfall atlas open {atlas.path} {number} -o gait.json"
 
 
 def place(page: Page, atlas: AtlasFile, number: int) -> tuple[float, float]:

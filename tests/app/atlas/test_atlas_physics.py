@@ -131,7 +131,7 @@ def test_a_file_without_the_table_is_read_as_it_is_and_gets_the_table_with_the_f
 
 def test_figures_of_physics_are_keys_of_the_front_where_there_are_any(atlas: AtlasFile) -> None:
     assert not set(PHYSICS_FIGURES) & set(front_keys(atlas))
-    with pytest.raises(InputError, match="--y is walked, and no gait was simulated"):
+    with pytest.raises(InputError, match="y is walked, and no gait was simulated"):
         atlas_front(atlas, "margin", "walked")
     solved = [row.number for row in atlas.rows(RowStatus.SOLVED)]
     atlas.add_physics(made_up(solved[0], 0.5, 0.01))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Callable, Generator, Iterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -125,7 +126,7 @@ def test_no_gait_beats_one_of_the_front(atlas: AtlasFile) -> None:
     soonest = atlas_front(atlas, "stop_seconds", "speed")
     assert [row.speed for row, _ in soonest] == sorted((row.speed for row, _ in soonest), reverse=True)
     assert [r.stop_seconds for r, _ in soonest] == sorted((r.stop_seconds for r, _ in soonest), reverse=True)
-    with pytest.raises(InputError, match="--y is stride; it must be one of seconds, speed"):
+    with pytest.raises(InputError, match="y is stride; it must be one of seconds, speed"):
         atlas_front(atlas, "margin", "stride")
 
 
@@ -180,6 +181,23 @@ def test_an_atlas_of_another_format_or_version_is_refused(tmp_path: Path) -> Non
     connection.close()
     with pytest.raises(InputError, match="is an atlas of format 2, and this program reads 1"):
         AtlasFile(old)
+
+
+def test_reading_an_atlas_that_is_gone_makes_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    gone = tmp_path / "gone.sqlite"
+    monkeypatch.setattr(Path, "is_file", lambda path: True)
+    with pytest.raises(StorageError):
+        AtlasFile(gone)
+    assert not gone.exists()
+
+
+def test_a_database_of_something_else_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "other.sqlite"
+    with closing(sqlite3.connect(path)) as other, other:
+        other.execute("CREATE TABLE about (key TEXT, value TEXT)")
+        other.execute("INSERT INTO about VALUES ('format', 'footfall-atlas')")
+    with pytest.raises(InputError, match="is no atlas"):
+        AtlasFile(path)
 
 
 def test_a_full_disk_keeps_what_was_computed(tmp_path: Path) -> None:

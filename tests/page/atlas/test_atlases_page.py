@@ -60,6 +60,8 @@ def test_a_run_shows_how_far_it_is_is_cancelled_and_goes_on(page: Page, studio: 
     expect(job).to_contain_text(re.compile("of 100,000 gaits, [0-9,]+ solved, about [0-9]+ (min|h) left"))
     dialog = open_dialog(page)
     expect(dialog.get_by_role("button", name="Make")).to_be_disabled()
+    dialog.get_by_label("Name of the atlas").press("Enter")
+    expect(dialog.get_by_role("alert").filter(has_text="An atlas is being made.")).to_be_visible()
     dialog.get_by_role("button", name="Close").click()
     page.reload()
     job = page.get_by_role("list", name="Jobs").get_by_role("listitem").filter(has_text="“long”").first

@@ -18,6 +18,7 @@ from solver_jobs.atlas.evaluate import evaluated, evaluated_points, pose_gaits
 from solver_jobs.atlas.layout import MM, Asked, Layout
 from solver_jobs.atlas.postures import Postures
 from solver_jobs.atlas.rows import all_rows
+from solver_jobs.atlas.search import Search
 
 MODEL = load_robot("deltawalker")
 
@@ -53,6 +54,20 @@ def test_slopes_of_every_row_are_those_of_small_changes(overlap: bool) -> None:
         name = f"{number} {row.limit}"
         measured = (after[name] - before[name]) / (2 * size)
         assert slopes @ change[0] == pytest.approx(measured, abs=1e-4), name
+
+
+def test_arms_that_the_check_finds_too_near_are_brought_apart_alone_as_in_a_group() -> None:
+    space = default_space("deltawalker")
+    points = drawn_points(space, 140, 12)
+    (near,) = [point for point in points if point.number == 147]
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(Search, "with_arms_farther", lambda search, found, places, distance: found)
+        (before,) = evaluated_points(space, [near])
+    assert (before.status, "The arms of legs" in before.reason) == (RowStatus.FAILED, True)
+    (alone,) = evaluated_points(space, [near])
+    assert alone.status is RowStatus.SOLVED
+    grouped = {row.number: row for row in evaluated_points(space, points)}
+    assert results_hash([grouped[147]]) == results_hash([alone])
 
 
 def test_a_step_keeps_its_rows_or_misses_both_kinds_by_the_least() -> None:

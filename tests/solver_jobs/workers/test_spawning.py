@@ -8,7 +8,8 @@ from collections.abc import Callable
 
 import pytest
 
-from solver_jobs import BatchSimulator, JobQueue, LiveSolver, PatternSolver, Simulator
+from core.atlas.space import default_space
+from solver_jobs import BatchSimulator, Chunk, ChunkWorker, JobQueue, LiveSolver, PatternSolver, Simulator
 from solver_jobs.workers.spawning import BACKGROUND_NICENESS, NICENESS
 
 PATIENCE = 60.0
@@ -54,3 +55,15 @@ def test_simulations_stand_back_behind_what_answers_a_hand_and_both_behind_the_b
 def test_jobs_stand_back_behind_what_answers_a_hand() -> None:
     with JobQueue() as runner:
         assert niceness_of(lambda: job_process(runner), BACKGROUND_NICENESS) == BACKGROUND_NICENESS
+
+
+@pytest.mark.parametrize(("is_idle", "policy"), [(True, os.SCHED_IDLE), (False, os.SCHED_OTHER)])
+def test_an_idle_worker_of_an_atlas_runs_only_while_a_core_is_free(is_idle: bool, policy: int) -> None:
+    worker = ChunkWorker(is_idle)
+    try:
+        rows = worker.submit(default_space("deltawalker"), Chunk(0, 1)).result(60.0)
+        assert [point.number for point, _ in rows] == [0]
+        assert worker.process_id is not None
+        assert os.sched_getscheduler(worker.process_id) == policy
+    finally:
+        worker.close()

@@ -1,0 +1,86 @@
+/** The table of atlases: what each has, its map and files, and Delete with Undo. */
+
+import { atlasApi } from "../api/atlases.js";
+import { h, onPress, setAllowed } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { latestOnly } from "../lib/latest_only.js";
+import { attempt, report, toast } from "../lib/toasts.js";
+import { jobIsOn } from "../shell/job_list.js";
+
+const HEADS = ["Atlas", "Gaits", "Solved", "Fastest", "", ""];
+const NUMBERS = [1, 2, 3];
+const DELETE_HELP = "Removes this atlas from the list. Undo brings it back";
+
+/** A whole number with its thousands apart. */
+export const count = (number) => number.toLocaleString("en");
+
+function link(text, href, label, title, more) {
+  return h("a", { href, text, "aria-label": label, title, ...more });
+}
+
+function deleteButton({ name, included }, isBusy, erase) {
+  const button = h("button", { type: "button", class: "link", text: "Delete", "aria-label": `Delete ${name}` });
+  const why = included ? "This atlas comes with the program" : "Cancel its job first";
+  setAllowed(button, included || isBusy ? why : null, DELETE_HELP);
+  onPress(button, () => erase(name), (reason) => toast(`${reason}.`));
+  return button;
+}
+
+function titleOf({ name, included }, pick) {
+  if (included) return h("span", { text: name, title: "This atlas comes with the program" });
+  return h("button", { type: "button", class: "link", text: name, title: "Go on with this atlas", on: { click: pick } });
+}
+
+function files(name) {
+  const [map, html, csv] = [atlasApi.mapAddress(name), "html", "csv"];
+  return h("td", { class: "atlas-files" },
+    link("Map", map, `Map of ${name}`, "Opens the map in a new tab", { target: "_blank", rel: "noopener" }),
+    link("HTML", atlasApi.fileAddress(name, html), `${name} as HTML`, "The map as a file that needs no studio", { download: "" }),
+    link("CSV", atlasApi.fileAddress(name, csv), `${name} as CSV`, "All gaits as a table", { download: "" }));
+}
+
+function tableRow(atlas, isBusy, { pick, erase }) {
+  const remove = h("td", {}, deleteButton(atlas, isBusy, erase));
+  if (atlas.trouble) {
+    return h("tr", {}, h("td", { text: atlas.name }), h("td", { colspan: 4, class: "why", text: atlas.trouble }), remove);
+  }
+  const fastest = atlas.fastest === null ? "–" : `${fixed(atlas.fastest * 1000, 2)} mm/s`;
+  const numbers = [count(atlas.gaits), count(atlas.solved), fastest];
+  return h("tr", {}, h("td", {}, titleOf(atlas, () => pick(atlas))),
+    ...numbers.map((text) => h("td", { class: "number", text })), files(atlas.name), remove);
+}
+
+function head() {
+  const cells = HEADS.map((text, place) => h(text ? "th" : "td", { class: NUMBERS.includes(place) ? "number" : null, text }));
+  return h("thead", {}, h("tr", {}, ...cells));
+}
+
+/**
+ * Builds the table.
+ * @param {object} store
+ * @param {{pick: (atlas: object) => void, changed: (atlases: object[]) => void}} acts
+ * @returns {{element: HTMLElement, show: () => void}} `show` reads the list anew
+ */
+export function atlasTable(store, { pick, changed }) {
+  const body = h("tbody");
+  const table = h("table", { class: "atlas-table", "aria-label": "Atlases", hidden: true }, head(), body);
+  const erase = attempt(async (name) => {
+    await atlasApi.erase(name);
+    show();
+    const undo = attempt(async () => { await atlasApi.restore(name); show(); });
+    toast(`The atlas “${name}” is deleted.`, { action: { label: "Undo", act: undo } });
+  });
+  const read = latestOnly(async () => {
+    try {
+      const { atlases } = await atlasApi.list();
+      const busy = store.state.jobs.filter((job) => job.kind === "atlas" && jobIsOn(job)).map((job) => job.atlas);
+      body.replaceChildren(...atlases.map((atlas) => tableRow(atlas, busy.includes(atlas.name), { pick, erase })));
+      table.hidden = !atlases.length;
+      changed(atlases);
+    } catch (error) {
+      report(error);
+    }
+  });
+  const show = () => read(null);
+  return { element: h("div", { class: "atlas-list" }, table), show };
+}

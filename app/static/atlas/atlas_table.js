@@ -8,6 +8,7 @@ import { attempt, report, toast } from "../lib/toasts.js";
 import { jobIsOn } from "../shell/job_list.js";
 
 const HEADS = ["Atlas", "Gaits", "Solved", "Fastest", "", ""];
+const NEW_TAB = { target: "_blank", rel: "noopener" };
 const NUMBERS = [1, 2, 3];
 const DELETE_HELP = "Removes this atlas from the list. Undo brings it back";
 
@@ -19,7 +20,8 @@ function link(text, href, label, title, more) {
 }
 
 function deleteButton({ name, included }, isBusy, erase) {
-  const button = h("button", { type: "button", class: "link", text: "Delete", "aria-label": `Delete ${name}` });
+  const label = `Delete ${name}`;
+  const button = h("button", { type: "button", class: "link", text: "Delete", "aria-label": label });
   const why = included ? "This atlas comes with the program" : "Cancel its job first";
   setAllowed(button, included || isBusy ? why : null, DELETE_HELP);
   onPress(button, () => erase(name), (reason) => toast(`${reason}.`));
@@ -28,21 +30,23 @@ function deleteButton({ name, included }, isBusy, erase) {
 
 function titleOf({ name, included }, pick) {
   if (included) return h("span", { text: name, title: "This atlas comes with the program" });
-  return h("button", { type: "button", class: "link", text: name, title: "Go on with this atlas", on: { click: pick } });
+  const title = "Go on with this atlas";
+  return h("button", { type: "button", class: "link", text: name, title, on: { click: pick } });
 }
 
 function files(name) {
-  const [map, html, csv] = [atlasApi.mapAddress(name), "html", "csv"];
+  const [html, csv] = ["html", "csv"].map((form) => atlasApi.fileAddress(name, form));
   return h("td", { class: "atlas-files" },
-    link("Map", map, `Map of ${name}`, "Opens the map in a new tab", { target: "_blank", rel: "noopener" }),
-    link("HTML", atlasApi.fileAddress(name, html), `${name} as HTML`, "The map as a file that needs no studio", { download: "" }),
-    link("CSV", atlasApi.fileAddress(name, csv), `${name} as CSV`, "All gaits as a table", { download: "" }));
+    link("Map", atlasApi.mapAddress(name), `Map of ${name}`, "Opens the map in a new tab", NEW_TAB),
+    link("HTML", html, `${name} as HTML`, "The map as a file that needs no studio", { download: "" }),
+    link("CSV", csv, `${name} as CSV`, "All gaits as a table", { download: "" }));
 }
 
 function tableRow(atlas, isBusy, { pick, erase }) {
   const remove = h("td", {}, deleteButton(atlas, isBusy, erase));
   if (atlas.trouble) {
-    return h("tr", {}, h("td", { text: atlas.name }), h("td", { colspan: 4, class: "why", text: atlas.trouble }), remove);
+    const why = h("td", { colspan: 4, class: "why", text: atlas.trouble });
+    return h("tr", {}, h("td", { text: atlas.name }), why, remove);
   }
   const fastest = atlas.fastest === null ? "–" : `${fixed(atlas.fastest * 1000, 2)} mm/s`;
   const numbers = [count(atlas.gaits), count(atlas.solved), fastest];
@@ -51,7 +55,8 @@ function tableRow(atlas, isBusy, { pick, erase }) {
 }
 
 function head() {
-  const cells = HEADS.map((text, place) => h(text ? "th" : "td", { class: NUMBERS.includes(place) ? "number" : null, text }));
+  const classOf = (place) => (NUMBERS.includes(place) ? "number" : null);
+  const cells = HEADS.map((text, place) => h(text ? "th" : "td", { class: classOf(place), text }));
   return h("thead", {}, h("tr", {}, ...cells));
 }
 
@@ -73,8 +78,10 @@ export function atlasTable(store, { pick, changed }) {
   const read = latestOnly(async () => {
     try {
       const { atlases } = await atlasApi.list();
-      const busy = store.state.jobs.filter((job) => job.kind === "atlas" && jobIsOn(job)).map((job) => job.atlas);
-      body.replaceChildren(...atlases.map((atlas) => tableRow(atlas, busy.includes(atlas.name), { pick, erase })));
+      const on = store.state.jobs.filter((job) => job.kind === "atlas" && jobIsOn(job));
+      const busy = on.map((job) => job.atlas);
+      const rows = atlases.map((atlas) => tableRow(atlas, busy.includes(atlas.name), { pick, erase }));
+      body.replaceChildren(...rows);
       table.hidden = !atlases.length;
       changed(atlases);
     } catch (error) {

@@ -1,4 +1,4 @@
-/** The dialog Atlases: makes an atlas or goes on with one, and leads to the maps and tables of those that are there. */
+/** The dialog Atlases: makes an atlas or goes on with one, and leads to the maps and tables of all. */
 
 import { ApiError } from "../api/gaits.js";
 import { atlasApi } from "../api/atlases.js";
@@ -14,11 +14,13 @@ const PURPOSE = "An atlas shows what a robot can do. The studio draws thousands 
   + "The map of an atlas shows which of them are fast and which are stable.";
 const COST = "The studio evaluates about 40 gaits a second in the background. You can go on working.";
 const BUSY = "An atlas is being made. Wait for it, or cancel it in Jobs";
+const NAME_HELP = "The name of the atlas. With the name of one in the list, its run goes on";
 const [USUAL, MOST] = [10000, 1000000];
 
 function addStyles() {
   const href = new URL("./atlases.css", import.meta.url).pathname;
-  if (!document.querySelector(`link[href="${href}"]`)) document.head.append(h("link", { rel: "stylesheet", href }));
+  if (document.querySelector(`link[href="${href}"]`)) return;
+  document.head.append(h("link", { rel: "stylesheet", href }));
 }
 
 function labelled(label, control, help, refusal) {
@@ -31,7 +33,8 @@ function fields(list, changed) {
   const usable = list.filter(({ legs }) => legs >= 4);
   const robot = h("select", { "aria-label": "Robot of the atlas" }, ...robotOptions(usable));
   const name = h("input", { "aria-label": "Name of the atlas", maxlength: "60", autocomplete: "off" });
-  const gaits = h("input", { type: "number", "aria-label": "Gaits", min: 1, max: MOST, step: 1, value: USUAL });
+  const limits = { type: "number", min: 1, max: MOST, step: 1 };
+  const gaits = h("input", { ...limits, "aria-label": "Gaits", value: USUAL });
   const [nameRefusal, gaitsRefusal] = [refusalOf(name), refusalOf(gaits)];
   let isNamed = false;
   const follow = () => {
@@ -44,7 +47,7 @@ function fields(list, changed) {
   return {
     element: h("div", { class: "atlas-fields" },
       labelled("Robot", robot, "The robot whose gaits are evaluated"),
-      labelled("Name", name, "The name of the atlas. With the name of one in the list, its run goes on", nameRefusal),
+      labelled("Name", name, NAME_HELP, nameRefusal),
       labelled("Gaits", gaits, `How many gaits the atlas is to have (1 to ${count(MOST)})`, gaitsRefusal)),
     robot: () => robot.value,
     name: () => name.value.trim(),
@@ -114,8 +117,10 @@ function form(store, list, close) {
 
   const cancel = h("button", { type: "button", text: "Close", on: { click: () => close(null) } });
   return {
-    content: [h("p", { class: "quiet", text: PURPOSE }), asked.element, h("p", { class: "quiet", text: COST }), refused,
-      h("div", { class: "buttons" }, cancel, make), table.element],
+    content: [
+      h("p", { class: "quiet", text: PURPOSE }), asked.element, h("p", { class: "quiet", text: COST }), refused,
+      h("div", { class: "buttons" }, cancel, make), table.element,
+    ],
     accept,
     /** Picks an atlas once the list is there. */
     want: (name) => { wanted = name; asked.follow(); },
@@ -124,7 +129,9 @@ function form(store, list, close) {
 }
 
 /** Tells states of the list of jobs apart by which the list of atlases changes. */
-const stateOf = ({ jobs }) => jobs.filter(({ kind }) => kind === "atlas").map(({ id, state }) => `${id} ${state}`).join();
+function stateOf({ jobs }) {
+  return jobs.filter(({ kind }) => kind === "atlas").map(({ id, state }) => `${id} ${state}`).join();
+}
 
 let isOpen = false;
 

@@ -1,21 +1,28 @@
-"""Atlases over HTTP: a job that makes one, its list, its front, its files, deleting, bad input."""
+"""Atlases over HTTP: their list, fronts and files, deleting, bad input."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.support.studio_process import StudioProcess, running_studio, wait_for
-
-MANY = 100_000
+from app.atlas.atlas_file import AtlasFile
+from core.atlas.space import default_space
+from solver_jobs import evaluated_chunk
+from tests.support.studio_process import StudioProcess, running_studio
 
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("data")
+    """A data folder with a small atlas."""
+    folder, space = tmp_path_factory.mktemp("data"), default_space("deltawalker").drawn_by(7)
+    (folder / "atlases").mkdir()
+    with closing(AtlasFile(folder / "atlases" / "small.sqlite", space)) as atlas:
+        atlas.add(evaluated_chunk(space.content(), 0, 24))
+    return folder
 
 
 @pytest.fixture(scope="module")
@@ -24,24 +31,13 @@ def studio(data: Path) -> Iterator[StudioProcess]:
         yield running
 
 
-@pytest.fixture(scope="module")
-def made(studio: StudioProcess) -> str:
-    """Name of a small atlas that is done."""
-    answer = studio.ask(
-        "POST", "/api/atlases", {"name": "small", "count": 24, "robot": "deltawalker", "seed": 7}
-    )
-    assert (answer.status, answer.content["kind"], answer.content["atlas"]) == (202, "atlas", "small")
-    job = answer.content["id"]
-    wait_for(lambda: job_of(studio, job)["state"] == "done", "the atlas is made", 120.0)
+@pytest.fixture
+def made() -> str:
+    """Name of the small atlas."""
     return "small"
 
 
-def job_of(studio: StudioProcess, job: str) -> dict[str, Any]:
-    content: dict[str, Any] = studio.ask("GET", f"/api/jobs/{job}").content
-    return content
-
-
-def test_an_atlas_that_is_made_is_listed_with_what_it_has(studio: StudioProcess, made: str) -> None:
+def test_an_atlas_is_listed_with_what_it_has(studio: StudioProcess, made: str) -> None:
     listed = {one["name"]: one for one in studio.ask("GET", "/api/atlases").content["atlases"]}
     one = listed[made]
     assert (one["robot"], one["kind"], one["seed"], one["gaits"]) == ("deltawalker", "fast", 7, 24)
@@ -59,26 +55,6 @@ def test_its_front_and_files_have_its_gaits(studio: StudioProcess, made: str) ->
     page = studio.text(f"/api/atlases/{made}/map")
     assert page == studio.text(f"/api/atlases/{made}/export?format=html")
     assert "<html" in page
-
-
-def test_a_run_tells_how_far_it_is_is_cancelled_and_goes_on(studio: StudioProcess) -> None:
-    job = studio.ask("POST", "/api/atlases", {"name": "large", "count": MANY}).content["id"]
-    second = studio.ask("POST", "/api/atlases", {"name": "other", "count": 10})
-    assert (second.status, "cancel it in Jobs" in second.content["error"]) == (409, True)
-    refused = studio.ask("DELETE", "/api/atlases/large")
-    assert (refused.status, "Cancel it in Jobs" in refused.content["error"]) == (409, True)
-    wait_for(lambda: job_of(studio, job)["done"] >= 400, "a chunk is done", 120.0)
-    known = job_of(studio, job)
-    assert (known["state"], known["count"]) == ("running", MANY)
-    assert "of 100,000 gaits" in known["sentence"]
-    assert "left" in known["sentence"]
-    studio.ask("DELETE", f"/api/jobs/{job}")
-    wait_for(lambda: job_of(studio, job)["state"] == "cancelled", "the run has ended", 60.0)
-    kept = studio.ask("GET", "/api/atlases/large").content["gaits"]
-    assert kept >= 400
-    again = studio.ask("POST", "/api/atlases", {"name": "large", "count": kept}).content["id"]
-    wait_for(lambda: job_of(studio, again)["state"] == "done", "nothing was left to do", 60.0)
-    assert studio.ask("GET", "/api/atlases/large").content["gaits"] == kept
 
 
 def test_an_atlas_is_deleted_and_brought_back(studio: StudioProcess, made: str) -> None:

@@ -12,6 +12,8 @@ from tests.support.page.axe import findings
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
+pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:

@@ -8,9 +8,8 @@ from collections.abc import Callable
 
 import pytest
 
-from core.atlas.space import default_space
-from solver_jobs import BatchSimulator, Chunk, ChunkWorker, JobQueue, LiveSolver, PatternSolver, Simulator
-from solver_jobs.workers.spawning import BACKGROUND_NICENESS, NICENESS
+from solver_jobs import BatchSimulator, ChunkWorker, JobQueue, LiveSolver, PatternSolver, Simulator
+from solver_jobs.workers.spawning import BACKGROUND_NICENESS, IDLE_NICENESS, NICENESS
 
 PATIENCE = 60.0
 """Longest wait for a process, s."""
@@ -57,13 +56,21 @@ def test_jobs_stand_back_behind_what_answers_a_hand() -> None:
         assert niceness_of(lambda: job_process(runner), BACKGROUND_NICENESS) == BACKGROUND_NICENESS
 
 
-@pytest.mark.parametrize(("is_idle", "policy"), [(True, os.SCHED_IDLE), (False, os.SCHED_OTHER)])
-def test_an_idle_worker_of_an_atlas_runs_only_while_a_core_is_free(is_idle: bool, policy: int) -> None:
+@pytest.mark.parametrize(
+    ("is_idle", "wanted", "policy"),
+    [(True, IDLE_NICENESS, os.SCHED_IDLE), (False, BACKGROUND_NICENESS, os.SCHED_OTHER)],
+)
+def test_an_idle_worker_of_an_atlas_runs_only_while_a_core_is_free(
+    is_idle: bool, wanted: int, policy: int
+) -> None:
     worker = ChunkWorker(is_idle)
+    worker.start()
     try:
-        rows = worker.submit(default_space("deltawalker"), Chunk(0, 1)).result(60.0)
-        assert [point.number for point, _ in rows] == [0]
+        assert niceness_of(lambda: worker.process_id, wanted) == wanted
         assert worker.process_id is not None
+        deadline = time.monotonic() + PATIENCE
+        while os.sched_getscheduler(worker.process_id) != policy and time.monotonic() < deadline:
+            time.sleep(0.01)
         assert os.sched_getscheduler(worker.process_id) == policy
     finally:
         worker.close()

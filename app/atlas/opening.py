@@ -7,8 +7,9 @@ from app.atlas.atlas_file import AtlasFile
 from app.common.json import Json
 from core.atlas.documents import drawn_document, pose_document
 from core.atlas.near_walk import near_walk
-from core.atlas.row import AtlasRow
+from core.atlas.row import AtlasRow, RowStatus
 from core.atlas.space import AtlasKind
+from core.errors import InfeasibleError
 from core.gait.gait import Gait
 from core.pose_gaits.gait_poses import pose_problem, with_poses
 from core.pose_gaits.pose_gait import PoseGait
@@ -87,8 +88,14 @@ def opened_gait(
     Raises:
         NotFoundError: the atlas has none of that number.
         InputError: it has no document, or the robot's parameters have changed.
+        InfeasibleError: it has no motion, in the atlas as now.
     """
     opened = opened_point(atlas, number)
+    if opened.agrees and opened.row.status is not RowStatus.SOLVED:
+        raise InfeasibleError(
+            f"Gait {number} is {opened.row.status.value}. {opened.row.reason} There is no gait file of it.",
+            "ID",
+        )
     (point,) = drawn_points(atlas.space, number, 1)
     model, name = atlas.space.model(point.numbers), f"Atlas gait {number}"
     if atlas.space.kind is AtlasKind.DRAWN:

@@ -219,10 +219,12 @@ def atlas(
     """
     where = included_or(Path(path)) if count is None else Path(path)
     rule = None if physics is None else physics_rule(physics, "physics")
-    if rule is not None and where in INCLUDED.values():
+    makes_new = count is not None and str(path) in INCLUDED and not where.exists()
+    if makes_new or (rule is not None and where in INCLUDED.values()):
         raise InputError(
-            f"The atlas {path} comes with the program and stays as it is. Make one of your own with count.",
-            "physics",
+            f"The atlas {path} comes with the program and stays as it is. Make one of your own: "
+            "ff.atlas(FILE.sqlite, count=N).",
+            "path",
         )
     with closing(AtlasFile(where, None if count is None else _space(robot, space, seed))) as file:
         if count is not None:

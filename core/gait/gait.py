@@ -353,7 +353,14 @@ def resting_poses(gait: Gait, model: RobotModel) -> tuple[RestPose, RestPose]:
 
 
 def travel_world(gait: Gait, model: RobotModel) -> Floats:
-    """(2,) how far the body goes in the world from its gait's first sample to the last, m."""
+    """(2,) how far the body goes in the world from its gait's first sample to the last, m.
+
+    In a curve of a gait for the robot's clock each cycle goes along its own heading.
+    """
+    if gait.poses is not None:
+        x, y = gait.step_world
+        steps = complex(x, y) * np.exp(1j * gait.step[2] * np.arange(gait.iterations))
+        return np.array([steps.sum().real, steps.sum().imag])
     is_computed = gait.recorded is None and gait.segment_table is None and not gait.sequence
     if not (is_computed and gait.held.any):
         return gait.step_world * gait.iterations

@@ -107,8 +107,10 @@ def run_atlas_front(options: Namespace) -> int:
     for row, parameters in found:
         values = ", ".join(_words(row, parameters, key) for key in (options.y, options.x))
         order = parameters["order"].replace(",", "-")
-        step = math.hypot(parameters["step_x"], parameters["step_y"]) * 1000
-        lines.append(f"  {row.number:>7}  {values}  (order {order}, step {step:.1f} mm)")
+        x, y = parameters["step_x"], parameters["step_y"]
+        way = f"step {math.hypot(x, y) * 1000:.1f} mm at {math.degrees(math.atan2(y, x)):.0f}°"
+        turn = f", turn {math.degrees(parameters['turn']):.0f}°" if parameters["turn"] else ""
+        lines.append(f"  {row.number:>7}  {values}  (order {order}, {way}{turn})")
     lines.append(f"footfall atlas open {options.atlas} ID -o gait.json makes one a gait file.")
     show(options, content, lines)
     return 0 if found else INFEASIBLE

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import footfall
 from core.library.library import Group, group_ids, library
 from core.physics.metrics import report
 from core.physics.pose_gait_problem import pose_gait_problem
@@ -21,6 +22,12 @@ def simulation(gait_id: str) -> SimulationProblem:
     poses = found_gait(gait, load_robot(gait.robot))
     assert poses is not None
     return pose_gait_problem(poses)
+
+
+@pytest.mark.parametrize("gait_id", GAITS)
+def test_it_passes_the_check_before_sending(gait_id: str) -> None:
+    verdict = footfall.check(footfall.plan(gait_id))
+    assert verdict.passed, str(verdict)
 
 
 @pytest.mark.heavy

@@ -12,7 +12,6 @@ from tests.support.page.drawers import open_drawer
 from tests.support.page.touch import long_press, touch_page
 from tests.support.studio_process import StudioProcess
 
-SHARES_STUDIO = True
 pytestmark = pytest.mark.heavy
 
 

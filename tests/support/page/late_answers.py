@@ -75,13 +75,19 @@ class LateList(Late):
 
     def __init__(self, page: Page) -> None:
         super().__init__(page)
+        self._holds = True
         page.route_web_socket("**/api/events*", self._connect)
+
+    def let_go(self) -> None:
+        """Passes on what was held back; what comes later goes through."""
+        self._holds = False
+        super().let_go()
 
     def _connect(self, socket: WebSocketRoute) -> None:
         server = socket.connect_to_server()
 
         def take(message: str | bytes) -> None:
-            if json.loads(message)["type"] == "gaits":
+            if self._holds and json.loads(message)["type"] == "gaits":
                 self._held.append(partial(socket.send, message))
             else:
                 socket.send(message)

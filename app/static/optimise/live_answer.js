@@ -2,6 +2,7 @@
 
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
+import { keepPlace } from "../lib/keep_place.js";
 import { jobOf } from "../shell/job_list.js";
 import { fallOf, isRefusedDrawing } from "../state/live_plan.js";
 import { ownPlan } from "../state/store.js";
@@ -66,20 +67,12 @@ function verdictOf(state, goTo) {
   return fall ? { title: "The robot would tip over", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
 }
 
-/**
- * Keeps what a person works on in its place while the card above it grows: a field with the focus, a number that is dragged.
- * The card itself stays where it is under the pointer.
- */
-function keepPlace(store, element) {
+/** Whether a person works below the card: in a field with the focus, or on a number that is dragged. */
+function worksBelow({ gesture }, card) {
   const panel = byId("sections");
-  let height = 0;
-  new ResizeObserver(() => {
-    const now = element.offsetHeight;
-    const { activeElement } = document;
-    const isWorking = (panel.contains(activeElement) && !element.contains(activeElement)) || (store.state.gesture && panel.matches(":hover"));
-    if (isWorking && !element.matches(":hover")) panel.scrollTop += now - height;
-    height = now;
-  }).observe(element);
+  const { activeElement } = document;
+  const hasFocus = panel.contains(activeElement) && !card.contains(activeElement);
+  return (hasFocus || (gesture && panel.matches(":hover"))) && !card.matches(":hover");
 }
 
 /** The card: what is wrong, where, and what would help. It stands first in the inspector; its title stays in sight. */
@@ -101,7 +94,7 @@ export function liveAnswer(store, edits, goTo) {
   const body = h("div", { class: "advice" }, why, remedies.element);
   const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why the gait is infeasible", hidden: true }, h("h3", { class: "advice-title" }, title, up), body);
   let shown = null;
-  keepPlace(store, body);
+  keepPlace([body], () => body.offsetHeight, () => worksBelow(store.state, body));
   const show = (state) => {
     const verdict = verdictOf(state, goTo);
     element.hidden = body.hidden = !verdict;

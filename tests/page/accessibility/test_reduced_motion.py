@@ -14,6 +14,7 @@ SHARES_STUDIO = True
 pytestmark = pytest.mark.heavy
 
 MOVING = """() => {
+  document.querySelector(".hold").dataset.holding = "";
   const moves = ({ animationName, transitionDuration }) =>
     animationName !== "none" || transitionDuration.split(", ").some((one) => one !== "0s");
   const found = [...document.querySelectorAll("body, body *")].filter((element) =>
@@ -24,7 +25,7 @@ MOVING = """() => {
 
 
 def moving(page: Page) -> list[str]:
-    """Elements that CSS would move, and what moves."""
+    """Elements that CSS would move, and what moves, while Send is held."""
     found: list[str] = page.evaluate(MOVING)
     return found
 
@@ -33,14 +34,12 @@ def test_nothing_moves_by_itself(browser: Browser, studio: StudioProcess) -> Non
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
         page.emulate_media(reduced_motion="no-preference")
         expect(page.locator(".hold")).to_be_attached()
-        page.evaluate("document.querySelector('.hold').dataset.holding = ''")
         page.get_by_role("tab", name="Run").click()
         assert moving(page) != [], "what moves would be found"
         page.emulate_media(reduced_motion="reduce")
         page.reload()
         expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
         expect(page.locator(".hold")).to_be_attached()
-        page.evaluate("document.querySelector('.hold').dataset.holding = ''")
         for name in ("Run", "Pattern search", "Cells", "Design"):
             page.get_by_role("tab", name=name).click()
             assert moving(page) == [], name

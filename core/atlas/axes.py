@@ -33,6 +33,11 @@ class Axis:
         """Whether there is more than one value."""
         return self.low is not None or len(self.choices) > 1
 
+    @property
+    def ends(self) -> tuple[Any, ...]:
+        """Both ends of a range, or every choice."""
+        return self.choices if self.low is None else (self.low, self.high)
+
     def value(self, place: float) -> Any:
         """The value at a place from 0 up to, not including, 1."""
         if self.low is not None:
@@ -76,7 +81,11 @@ class Key:
         values = written.get(CHOICES) if isinstance(written, Mapping) else written
         is_range = self.is_number and not isinstance(written, Mapping) and _is_pair(values)
         if isinstance(written, Mapping) and set(written) != {CHOICES}:
-            raise self._refusal(written)
+            raise InputError(
+                f"{self.name} has {', '.join(map(str, written)) or 'an empty table'}. Write a range of two "
+                "numbers, or {choices = [A, B]}.",
+                self.name,
+            )
         listed = list(values) if isinstance(values, Sequence) and not isinstance(values, str) else [values]
         if not listed:
             raise InputError(

@@ -111,18 +111,34 @@ def varied_robot(name: str, numbers: tuple[tuple[str, float], ...]) -> RobotMode
         return load_robot(name)
     table = deepcopy(robot_table(name))
     for key, value in numbers:
-        *path, last = key.removeprefix(ROBOT).split(".")
-        section: Any = table
-        for part in path:
-            section = section.get(part) if isinstance(section, dict) else None
-        is_number = isinstance(section, dict) and isinstance(section.get(last), float | int)
-        if not is_number or isinstance(section[last], bool):
-            raise InputError(
-                f"{key} is no number of {name}.toml. Write robot.TABLE.KEY, such as robot.leg.link_length.",
-                key,
-            )
+        section, last = _place(table, name, key)
         section[last] = value
     return robot_from_table(table, f"{name}.toml")
+
+
+def robot_number(name: str, key: str) -> float:
+    """A number of a robot's parameters file.
+
+    Raises:
+        InputError: there is no such robot, or no such number.
+    """
+    section, last = _place(robot_table(name), name, key)
+    return float(section[last])
+
+
+def _place(table: dict[str, Any], name: str, key: str) -> tuple[dict[str, Any], str]:
+    """The table that has a number of a robot, and the number's key in it."""
+    *path, last = key.removeprefix(ROBOT).split(".")
+    section: Any = table
+    for part in path:
+        section = section.get(part) if isinstance(section, dict) else None
+    is_number = isinstance(section, dict) and isinstance(section.get(last), float | int)
+    if not is_number or isinstance(section[last], bool):
+        raise InputError(
+            f"{key} is no number of {name}.toml. Write robot.TABLE.KEY, such as robot.leg.link_length.",
+            key,
+        )
+    return section, last
 
 
 def space_from_toml(text: str, where: str) -> AtlasSpace:
@@ -209,9 +225,23 @@ def _axes(vary: Mapping[str, Any], model: RobotModel, where: str) -> dict[str, A
         axes["order"] = _orders(axes["order"], model)
     for name in sorted(name for name in flat if name.startswith(ROBOT)):
         axes[name] = robot_key(name).axis(flat[name])
-        end = axes[name].value(0.0)
-        varied_robot(model.name, ((name, end),))
+        for value in axes[name].ends:
+            _require_sign(name, value, robot_number(model.name, name))
+            varied_robot(model.name, ((name, value),))
     return axes
+
+
+def _require_sign(name: str, value: float, usual: float) -> None:
+    """A length, a mass or a speed that is larger than 0 in the robot's file stays so.
+
+    Raises:
+        InputError: it does not.
+    """
+    if usual > 0.0 >= value:
+        raise InputError(
+            f"{name} is {value:g}; it must be larger than 0, as in the robot's parameters file ({usual:g}).",
+            name,
+        )
 
 
 def _flat(prefix: str, value: Any) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from app.cli.atlas.physics import gait_content as physics_of_gait
 from app.cli.atlas.physics import gait_lines, run_lines, simulate_chosen
 from app.cli.common.output import INFEASIBLE, NOT_FIT, duration, end_on_signals, note, show
 from app.common.json import Json
+from app.common.signals import Interrupted
 from app.documents.gait_json import gait_content
 from app.store.gait_files import write_atomically
 from app.store.plain_file import read_plain_file
@@ -41,10 +42,15 @@ def run_atlas_run(options: Namespace) -> int:
         raise InputError(f"{options.output} must end in .sqlite; an atlas is one SQLite file.", "-o")
     engine = _engine(options)
     with closing(AtlasFile(options.output, space)) as atlas:
-        progress = run_atlas(atlas, options.count, engine, _shown_progress())
-        _end_line()
-        counts, digest = atlas.counts(), atlas.hash
-        physics = simulate_chosen(options, atlas, _workers(options))
+        try:
+            progress = run_atlas(atlas, options.count, engine, _shown_progress())
+            _end_line()
+            counts, digest = atlas.counts(), atlas.hash
+            physics = simulate_chosen(options, atlas, _workers(options))
+        except (KeyboardInterrupt, Interrupted):
+            _end_line()
+            note(_kept(atlas))
+            raise
     content = {
         "atlas": str(options.output),
         "evaluated": progress.evaluated,
@@ -194,6 +200,13 @@ def _from_stance_words(opened: OpenedGait, walk: PoseGait) -> str:
         f"{words} with a step of {walk.step * 1000:.1f} mm: {asked * 1000:.1f} mm is too long for the way "
         "from and to the stance."
     )
+
+
+def _kept(atlas: AtlasFile) -> str:
+    """What the file has of a run that was interrupted, in sentences."""
+    gaits, simulated = sum(atlas.counts().values()), len(atlas.physics())
+    physics = f", {simulated:,} of them with physics" if simulated else ""
+    return f"{atlas.path} keeps the {gaits:,} gaits that it has{physics}. The same command goes on there."
 
 
 def _workers(options: Namespace) -> int:

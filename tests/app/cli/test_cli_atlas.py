@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 
@@ -101,6 +102,21 @@ def test_bad_input_is_refused_with_a_sentence(
     assert status == 2
     assert words in said
     assert not (tmp_path / "a.sqlite").exists()
+
+
+def test_a_run_that_is_interrupted_says_what_it_keeps(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, space: Path, tmp_path: Path
+) -> None:
+    asked = ("atlas", "run", "--space", str(space), "--workers", "1", "-o", str(tmp_path / "a.sqlite"))
+    assert run(capsys, *asked, "--count", "3")[0] == 0
+
+    def interrupted(*_: object) -> NoReturn:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("app.cli.atlas.commands.run_atlas", interrupted)
+    status, _, said = run(capsys, *asked, "--count", "5")
+    assert status == 130
+    assert "a.sqlite keeps the 3 gaits that it has. The same command goes on there." in said
 
 
 def command(*arguments: str) -> list[str]:

@@ -73,6 +73,8 @@ def test_every_order_of_four_legs_begins_with_foot_1() -> None:
         (table(moves=3), "moves", "it must be 1, or 2"),
         (table(lost=[2]), "lost", 'Write kind = "drawn"'),
         (table(robot={"leg": {"bones": [1, 2]}}), "robot.leg.bones", "is no number of deltawalker.toml"),
+        (table(robot={"leg": {"link_length": [-0.05, 0.05]}}), "robot.leg.link_length", "larger than 0"),
+        (table(step_x={"choises": [0.01, 0.02]}), "step_x", "step_x has choises. Write a range of two"),
         ({"robot": "spot", **table()}, "robot", "There is no robot “spot”"),
         ({"kind": "quick", **table()}, "kind", "it must be one of fast, drawn"),
         ({"seed": -1, **table()}, "seed", "a whole number from 0"),

@@ -11,6 +11,9 @@ import { FOOT_NAMES } from "./camera_labels.js";
 import { blobNumbers, drawBlobs } from "./camera_overlay.js";
 
 const MOST_WIDTH = 1280;
+const HELP = "Set the colour of each foot. Select a foot, press Pick colour, then click on this foot in the "
+  + "picture. Look at other pictures, and adjust the colour until the studio finds the foot in each picture.";
+const MASK_HELP = "Shows the pixels with the colour of the selected foot and dims all other pixels";
 
 function footButtons(choose) {
   const buttons = FOOT_NAMES.map((name, index) => h("button", { type: "button", "aria-pressed": "false", data: { foot: index + 1 }, "aria-label": name, on: { click: () => choose(index) } },
@@ -49,8 +52,11 @@ function findings() {
 /** The fields of a foot's colour, and of the spots that may be any foot. */
 function colourFields(change, changeLimits) {
   const hue = hueRange((range, last) => change({ hue: range }, last));
-  const saturation = shareField("Least saturation", "A pixel belongs to the foot only if its colour is at least this strong. Pale and grey pixels have a low saturation", (share, last) => change({ saturation: share }, last));
-  const value = shareField("Least brightness", "A pixel belongs to the foot only if it is at least this bright. Pixels in a shadow are dark", (share, last) => change({ value: share }, last));
+  const saturation = shareField("Least saturation", "Pixels with a lower saturation do not count as "
+    + "part of the foot. Pale and grey pixels have a low saturation",
+    (share, last) => change({ saturation: share }, last));
+  const value = shareField("Least brightness", "Darker pixels do not count as part of the foot. "
+    + "Pixels in a shadow are dark", (share, last) => change({ value: share }, last));
   const limits = limitFields(changeLimits);
   return {
     elements: [hue.element, saturation.element, value.element, h("details", {}, h("summary", { text: "Which spots may be a foot" }), limits.element)],
@@ -82,7 +88,8 @@ export function feetPart(draft, stage) {
   const changeColour = (patch, last) => change({ colours: draft.state.setup.colours.map((one, index) => (index === foot ? { ...one, ...patch } : one)) }, last);
   const buttons = footButtons((next) => { foot = next; show(); stage.refresh(); });
   const fields = colourFields(changeColour, (patch) => change({ limits: { ...draft.state.setup.limits, ...patch } }));
-  const mask = h("button", { type: "button", text: "Mask", title: "Shows the pixels with this foot's colour and dims all other pixels", on: { click: () => { hasMask = !hasMask; showMask(); } } });
+  const turnMask = () => { hasMask = !hasMask; showMask(); };
+  const mask = h("button", { type: "button", text: "Mask", title: MASK_HELP, on: { click: turnMask } });
   const picking = colourPicking(stage.picture, { changed: () => showMask(), take: (range) => { changeColour(range); announce(`The colour of foot ${foot + 1} is set.`); } });
   const shows = () => (hasMask && !picking.isOn() ? "mask" : "plain");
 
@@ -112,7 +119,7 @@ export function feetPart(draft, stage) {
   showMask();
   return {
     element: h("div", { class: "camera-part" },
-      h("p", { class: "quiet", text: "Here you set the colour of each foot. Press Pick colour, then click on the foot in the picture. Look at other pictures and adjust the colour until the foot is found in each picture." }),
+      h("p", { class: "quiet", text: HELP }),
       h("div", { class: "camera-row" }, buttons.element, picking.button, mask), ...fields.elements, found.element),
     enter() {
       isOn = true;
@@ -137,7 +144,9 @@ export function feetPart(draft, stage) {
  *   each new picture: whether it has its own colours
  */
 export function colourPicking(picture, { changed, take }) {
-  const button = h("button", { type: "button", text: "Pick colour", "aria-pressed": "false", title: "Press this button, then click on the foot in the picture" });
+  const title = "Press this button, then click on the selected foot in the picture. "
+    + "The studio takes the colour of the foot from the picture";
+  const button = h("button", { type: "button", text: "Pick colour", "aria-pressed": "false", title });
   let [hasOwnColours, clicked] = [false, null];
   const isOn = () => button.getAttribute("aria-pressed") === "true";
 

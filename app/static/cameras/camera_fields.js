@@ -33,9 +33,19 @@ export function shareField(name, help, changed) {
 }
 
 const LIMITS = [
-  { key: "least_area", name: "Least area, px²", help: "A spot with a smaller area is not taken as a foot", max: 1e7, factor: 1, decimals: 0 },
-  { key: "most_area", name: "Largest area, px²", help: "A spot with a larger area is not taken as a foot", max: 1e7, factor: 1, decimals: 0 },
-  { key: "least_fill", name: "Least fill, %", help: "A spot must fill at least this percentage of the smallest circle around the spot. A round sole fills nearly 100 %", max: 100, factor: 100, decimals: 0 },
+  {
+    key: "least_area", name: "Least area, px²", max: 1e7, factor: 1, decimals: 0,
+    help: "The studio does not take a smaller spot of colour as a foot",
+  },
+  {
+    key: "most_area", name: "Largest area, px²", max: 1e7, factor: 1, decimals: 0,
+    help: "The studio does not take a larger spot of colour as a foot",
+  },
+  {
+    key: "least_fill", name: "Least fill, %", max: 100, factor: 100, decimals: 0,
+    help: "A foot must fill at least this percentage of the smallest circle around it. "
+      + "A round sole fills nearly 100 %",
+  },
 ];
 
 /** Limits on area and fill; `changed` is told what is new. */

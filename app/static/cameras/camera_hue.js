@@ -15,7 +15,12 @@ function leftOut([low, high]) {
 }
 
 function end(strip, { read, moving, moved }) {
-  const element = h("div", { class: "hue-end", role: "slider", tabindex: "0", "aria-valuemin": "0", "aria-valuemax": String(CIRCLE), data: { arrows: "", keys: "" }, title: "Drag this end of the hue range, or press the arrow keys (1°, with Shift 10°)" });
+  const title = "Drag this end of the hue range. "
+    + "The arrow keys move this end by 1°, with Shift by 10°";
+  const element = h("div", {
+    class: "hue-end", role: "slider", tabindex: "0", "aria-valuemin": "0", "aria-valuemax": String(CIRCLE),
+    data: { arrows: "", keys: "" }, title,
+  });
   const set = (degrees, last) => (last ? moved : moving)(around(degrees) / CIRCLE);
   let held = false;
   element.addEventListener("pointerdown", (event) => {

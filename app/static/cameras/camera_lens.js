@@ -8,6 +8,7 @@ import { pictureOf, setupApi } from "../api/videos.js";
 
 const FIELD = { min: "3", max: "30", step: "1", required: true };
 const SHARP_PX = 1;
+const UNREADABLE = "The page cannot load the picture, so it does not show the straightened picture.";
 
 function cornersField(name, value, changed) {
   const input = h("input", { type: "number", ...FIELD, value: String(value), "aria-label": name, title: "An inner corner is a point where four squares meet. A side with 9 squares has 8 inner corners" });
@@ -16,24 +17,24 @@ function cornersField(name, value, changed) {
 }
 
 function lensText({ lens }) {
-  if (!lens) return "There is no lens correction. A lens correction is needed if straight lines look bent "
+  if (!lens) return "There is no lens correction. You need a lens correction if straight lines look bent "
     + "in the picture.";
   if (lens.rms_px === null) return "The error of this lens correction is not known.";
-  const from = lens.boards ? `, computed from ${lens.boards} pictures` : "";
+  const from = lens.boards ? ` The lens correction is computed from ${lens.boards} pictures.` : "";
   const advice = lens.rms_px > SHARP_PX ? ` An error above ${SHARP_PX} px is large. `
-    + "Take sharper pictures of a flat board." : "";
-  return `The mean error of the lens correction is ${fixed(lens.rms_px, 2)} px${from}.${advice}`;
+    + "Take sharper pictures of a flat checkerboard." : "";
+  return `The RMS error of the lens correction is ${fixed(lens.rms_px, 2)} px.${from}${advice}`;
 }
 
 /** A picture's address as one that can be sent back: the server straightens it. */
 async function dataOf(address) {
   const response = await fetch(address);
-  if (!response.ok) throw new Error("The picture cannot be read.");
+  if (!response.ok) throw new Error(UNREADABLE);
   const blob = await response.blob();
   return new Promise((resolve, reject) => {
     const reader = new FileReader();
     reader.addEventListener("load", () => resolve(reader.result));
-    reader.addEventListener("error", () => reject(new Error("The picture cannot be read.")));
+    reader.addEventListener("error", () => reject(new Error(UNREADABLE)));
     reader.readAsDataURL(blob);
   });
 }
@@ -55,7 +56,8 @@ function straightening(draft, stage) {
       return (await setupApi.straight(draft.state.setup.lens, plain.startsWith("data:") ? plain : await dataOf(plain))).picture;
     },
     show({ lens }) {
-      setAllowed(button, lens ? null : "There is no lens correction yet.", "Corrects the picture, so that straight lines look straight");
+      const why = lens ? null : "There is no lens correction yet. Add pictures of a checkerboard first.";
+      setAllowed(button, why, "Corrects the picture, so that straight lines look straight");
       if (!lens && isOn()) turn(false);
     },
     end: () => button.setAttribute("aria-pressed", "false"),

@@ -12,7 +12,8 @@ import { openStage } from "../pictures/picture_stage.js";
 import "../pictures/picture_style.js";
 
 const LOOK_WIDTH = 1280;
-const HELP = "Plug in a camera. To use a video file instead of a camera, start the studio with --camera NAME=FILE.";
+const HELP = "Plug in a camera. "
+  + "To use a video file instead, start the studio with the option --camera NAME=FILE.";
 
 /** Puts a camera that the server sent into the page's state. */
 function accept(store, camera) {
@@ -36,16 +37,20 @@ function cameraRow(store, id, { watch, setUp }) {
     }
   });
   const [dot, name, word, sentence] = [h("span", { class: "dot" }), h("b"), h("span", { class: "word" }), h("p", { class: "why" })];
-  const use = h("select", { title: "Under the platform: the studio tracks the feet. From the side: the studio only shows and records the picture" }, ...USES.map(([value, text]) => h("option", { value, text })));
-  const setup = h("select", { title: "A setup has a lens correction, the place of the platform and the "
-    + "colours of the feet" });
+  const useHelp = "Where the camera is. With a camera under the platform, the studio tracks the feet. "
+    + "With a camera at the side, the studio only shows and records the picture";
+  const use = h("select", { title: useHelp }, ...USES.map(([value, text]) => h("option", { value, text })));
+  const setup = h("select", { title: "The setup of this camera: the lens correction, the place of the "
+    + "platform in the picture and the colours of the feet" });
   const records = recordSwitch(change);
   use.addEventListener("change", () => change({ use: use.value }));
   setup.addEventListener("change", () => change({ setup: setup.value }));
   const button = (text, title, act) => h("button", { type: "button", class: "link", text, title, on: { click: act } });
   const setupLine = h("label", {}, h("span", { text: "Setup" }), setup);
-  const adjust = button("Set up…", "Set the lens correction, the place of the platform and the colours of the feet on the live picture", () => setUp(now()));
-  const looking = button("Look", "Shows the live picture with the feet that are found", () => watch(now()));
+  const adjust = button("Set up…", "Opens the live picture of the camera. There you set the lens correction, "
+    + "the place of the platform and the colours of the feet", () => setUp(now()));
+  const looking = button("Look", "Shows the live picture and marks the feet that the studio finds",
+    () => watch(now()));
   const float = button("Beside the scene", "Shows the live picture in a corner of the 3D scene", () => toggleFloat(store, id));
   const element = h("li", { class: "camera" }, h("div", { class: "run-line" }, dot, name, word), sentence,
     h("label", {}, h("span", { text: "Seen" }), use), setupLine, records.label, h("div", { class: "camera-row" }, looking, float, adjust));

@@ -8,11 +8,25 @@ import { picturePoints } from "../pictures/picture_points.js";
 const MOST_POINTS = 200;
 const SQUARE = [[-5, -5], [5, -5], [5, 5], [-5, 5]];
 const ROUGH_MM = 1;
+const HELP = "Click points on the platform whose x and y you know. From these points the studio computes "
+  + "where the platform is in the picture. A magnifier helps you to aim. "
+  + "The arrow keys move the selected point by one pixel.";
 
 const PRESETS = {
-  square: { text: "10 cm square, centred", help: "Click four corners. Each corner is 5 cm from the platform's centre along x and along y", places: SQUARE },
-  corner: { text: "10 cm square, corner", help: "Click the four corners of a square. The first corner is the origin", places: SQUARE.map(([x, y]) => [x + 5, y + 5]) },
-  grid: { text: "etched 1 cm grid", help: "Click any crossings of grid lines. From the fifth point on, the studio proposes x and y", places: null },
+  square: {
+    text: "10 cm square, centred", places: SQUARE,
+    help: "Click the four corners of a 10 cm square around the platform's centre. "
+      + "Each corner is 5 cm from the centre along x and along y",
+  },
+  corner: {
+    text: "10 cm square, corner", places: SQUARE.map(([x, y]) => [x + 5, y + 5]),
+    help: "Click the four corners of a 10 cm square. The first corner is the origin, x = 0 and y = 0",
+  },
+  grid: {
+    text: "etched 1 cm grid", places: null,
+    help: "Click crossings of grid lines and type their x and y. "
+      + "From the fifth point on, the studio proposes x and y",
+  },
 };
 
 const written = ([x, y]) => `x ${fixed(x, 1)}, y ${fixed(y, 1)} cm`;
@@ -61,10 +75,10 @@ function axisNames(picture) {
 }
 
 function fitText({ view }, count) {
-  if (!view) return count < 4 ? "" : "The place of the platform cannot be computed from these points. "
+  if (!view) return count < 4 ? "" : "The studio cannot compute the place of the platform from these points. "
     + "Move one of the points.";
   const scale = `One pixel shows ${fixed(view.mm_per_pixel, 2)} mm of the platform.`;
-  const fourth = "Four points always fit exactly. A fifth point shows the error of the fit.";
+  const fourth = "Four points always fit exactly. To see the error of the fit, click a fifth point.";
   if (count === 4) return `${fourth} ${scale}`;
   return `The largest error of a point is ${fixed(view.worst_mm, 2)} mm. ${scale}`;
 }
@@ -159,7 +173,7 @@ export function placePart(draft, stage) {
   draft.watch(({ setup, answer }) => [setup, answer], show);
   return {
     element: h("div", { class: "camera-part" },
-      h("p", { class: "quiet", text: "Click points on the platform whose x and y you know. From these points the studio computes where the platform is. A magnifier helps you to aim. The arrow keys move a point by one pixel." }),
+      h("p", { class: "quiet", text: HELP }),
       h("label", {}, h("span", { text: "Points are" }), preset), ask, table.element, fit, clear),
     enter() {
       isOn = true;

@@ -11,8 +11,10 @@ import "../pictures/picture_style.js";
 export const announceTrial = attempt(async (id, open) => {
   const trial = await trialApi.read(id);
   if (!trial.run || !trial.source?.camera) return;
-  const walked = `The robot walked ${fixed(trial.figures.distance, 1)} of the wanted ${fixed(trial.expected_cm, 1)} cm.`;
-  const sentences = [`The run of “${trial.gait_name}” was recorded.`, walked, trial.plan?.astray_sentence];
+  const walked = `The robot walked ${fixed(trial.figures.distance, 1)} cm. `
+    + `The wanted distance was ${fixed(trial.expected_cm, 1)} cm.`;
+  const recorded = `A camera recorded the run of “${trial.gait_name}”.`;
+  const sentences = [recorded, walked, trial.plan?.astray_sentence];
   toast(sentences.filter(Boolean).join(" "), {
     action: { label: "Trial of this run", act: () => open({ trial: id }) },
   });
@@ -38,7 +40,8 @@ export function recordingLine(run, open) {
     const [{ trials }, videos] = await Promise.all([trialApi.list(), videoApi.ofRun(run)]);
     const own = trials.filter((trial) => trial.run === run);
     line.append(...own.map(({ id, name }) => link(own.length > 1 ? `Trial of this run: ${name}` : "Trial of this run", { trial: id }, name)),
-      ...videos.filter(({ state }) => state !== "removed").map(({ id, camera }) => link(`Recording of ${camera}`, { video: id }, "The video that the camera took of this run")),
+      ...videos.filter(({ state }) => state !== "removed").map(({ id, camera }) => link(
+        `Recording of ${camera}`, { video: id }, "Open the video that this camera recorded of the run")),
       ...videos.filter(({ sentence }) => sentence).map(({ camera, sentence }) => h("p", { class: "why", text: `${camera}: ${sentence}` })));
   })();
   return line;

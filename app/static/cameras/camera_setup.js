@@ -13,6 +13,9 @@ import { placePart } from "./camera_place.js";
 
 const PARTS = [["lens", "Lens", lensPart], ["place", "Place", placePart], ["feet", "Feet", feetPart]];
 
+const FILE_HELP = "Downloads the setup as a file. "
+  + "Use this file on the command line: footfall trial VIDEO --setup FILE";
+
 /** The first part that is missing from a setup. */
 const firstPart = ({ setup, view }) => (!setup.points.length && !setup.lens ? "lens" : view ? "feet" : "place");
 
@@ -75,7 +78,9 @@ function sizeNote(draft, stage) {
     const { size } = draft.state.setup;
     const { width, height } = stage.picture.size;
     const differs = stage.picture.image.src && size && (size[0] !== width || size[1] !== height);
-    setText(note, differs ? `This setup was made for pictures of ${size.join(" × ")} px, but the picture has ${width} × ${height} px. Set the camera to the old size, or make another setup.` : "");
+    const wanted = size?.join(" × ");
+    setText(note, differs ? `This setup is for pictures of ${wanted} px, but the picture has `
+      + `${width} × ${height} px. Set the camera to ${wanted} px, or make another setup.` : "");
   };
   stage.picture.onView(tell);
   draft.watch(({ setup }) => [setup.size], tell);
@@ -112,7 +117,8 @@ export function openSetup(page, { answer, source, frame = 0, back }) {
   const element = h("div", { class: "trial-form camera-setup" },
     h("button", { type: "button", class: "link", text: back.text, on: { click: leave } }),
     h("label", {}, h("span", { text: "Setup" }), nameField(draft)), state, sizeNote(draft, stage), ...tabs.elements,
-    h("div", { class: "run-files" }, h("a", { href: setupApi.exportPath(answer.id), download: "", text: "As a file", title: "Saves the setup as a file for the command line: footfall trial VIDEO --setup FILE" }),
+    h("div", { class: "run-files" },
+      h("a", { href: setupApi.exportPath(answer.id), download: "", text: "As a file", title: FILE_HELP }),
       h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this setup", on: { click: remove } }), h("button", { type: "button", class: "primary", text: "Done", on: { click: leave } })));
   page.show(element, () => stage.close());
   tabs.open(firstPart(answer));

@@ -90,8 +90,8 @@ export function picturePoints(picture, { add, move, remove, chosen }) {
   }
 
   function handle(index) {
-    const title = "Drag the point. Delete removes the point. "
-      + "The arrow keys move the point by 1 px, with Shift by 10 px, with Alt by 0.1 px";
+    const title = "Drag the point to move it. The arrow keys move the point by 1 px, with Shift by 10 px, "
+      + "with Alt by 0.1 px. The key Delete removes the point";
     const element = h("button", { type: "button", class: "video-point", title, data: { arrows: "", keys: "" } },
       h("span", { text: String(index + 1) }));
     dragging(element, picture, lens, { moving: (place) => goTo(index, place, false), moved: () => move(index, places[index], true) });

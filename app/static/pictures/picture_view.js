@@ -106,7 +106,7 @@ function mountImage(replace) {
       await next.decode();
     } catch {
       forget();
-      throw new Error("The picture cannot be shown.");
+      throw new Error("The browser cannot show the picture.");
     }
     if (number < requested) {
       forget();

@@ -41,7 +41,8 @@ function build(change) {
 
 function choiceRow({ parts, foot, size }) {
   return h("div", { class: "jog-choice" }, h("div", { class: "jog-parts", role: "group", "aria-label": "What to jog" }, ...parts), foot,
-    h("label", { title: `How far − and + move the target, ${STEP_MM.least} to ${STEP_MM.most} mm` },
+    h("label", { title: "The buttons − and + move the target by this step, "
+      + `${STEP_MM.least} to ${STEP_MM.most} mm` },
       h("span", { text: "Step" }), h("span", { class: "box", data: { unit: "mm" } }, size)));
 }
 
@@ -56,8 +57,9 @@ function targetText({ wired, moves, seconds: takes, stop_seconds: stop, margin_m
   if (!steps.length) return BEGINS[from] ?? "";
   const off = Math.max(0, ...(residual ?? []).map(Math.abs));
   if (!wired) {
-    return "Only the 3D preview shows this target, because this program cannot move this robot. "
-      + `The motors are coupled, so the strokes differ from the target by up to ${fixed(off)} mm.`;
+    return "This program cannot move this robot, so only the 3D preview shows the target. "
+      + "The motors are coupled, so the achievable strokes differ from your target by up to "
+      + `${fixed(off)} mm.`;
   }
   if (!moves) return "";
   const balance = margin === null ? "" : ` Margin ${fixed(margin)} mm.`;
@@ -119,7 +121,8 @@ export function jogPart(store, edits) {
   size.addEventListener("change", () => {
     const requested = Number(size.value);
     if (requested >= STEP_MM.least && requested <= STEP_MM.most) own.set({ size: requested });
-    else toast(`Enter a step between ${STEP_MM.least} and ${STEP_MM.most} mm. The previous value is kept.`);
+    else toast(`Enter a step between ${STEP_MM.least} and ${STEP_MM.most} mm. `
+      + `The step stays at ${own.state.size} mm.`);
     size.value = String(own.state.size);
   });
   onPress(parts.move, moving(store, own, body), (why) => toast(why));
@@ -158,8 +161,8 @@ export function jogPart(store, edits) {
   return element;
 }
 
-const HELP = "Add a segment to the end of the segment table. In this segment every foot moves to the target, "
-  + "or to the present pose if there is no other target";
+const HELP = "Add a segment to the end of the segment table. In this segment every foot moves to the target. "
+  + "Without a target, every foot moves to the present pose";
 
 /** Why the pose cannot be taken; null where it can. */
 function whyNot(state) {

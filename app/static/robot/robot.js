@@ -29,8 +29,8 @@ const bound = (limit) => (limit === null || limit === undefined ? "a few seconds
 
 /** Stop's worst case, in one short figure. */
 const stopSentence = (limit) => `Stop takes effect within ${bound(limit)}. The power switch is the emergency stop.`;
-const STOP_HELP = "The studio sends Stop over the cable. The robot first ends its present move. "
-  + "The robot stops at the latest after the time given here.";
+const STOP_HELP = "The studio sends Stop over the cable. The robot first finishes its present move. "
+  + "The time shown is the longest time until the robot stops.";
 const CLEAR_HELP = "Confirm that you have seen the stop or the fault. This button does not move the robot";
 
 function act(store, verb, extra = () => ({})) {
@@ -53,9 +53,10 @@ function way(step, ...children) {
 /** Why the check names another time for Stop; null where it names the same. */
 function checkedStopText({ stop_seconds: stop, checked_stop_seconds: checked, scan_seconds: scan }) {
   if (seconds(stop) === seconds(checked)) return null;
-  const why = scan === null ? "it counts all waypoints of the plan."
-    : `it assumes the slowest error scan of the firmware. This robot's error scan took ${seconds(scan)} s.`;
-  return `For Stop, Check gives ${seconds(checked)} s, because ${why}`;
+  const why = scan === null ? "Check counts all waypoints of the plan."
+    : "Check assumes the slowest error scan of the firmware. "
+      + `This robot's error scan took ${seconds(scan)} s.`;
+  return `The step Check shows ${seconds(checked)} s for Stop, because ${why}`;
 }
 
 /** What will move, how long, and how soon it stops. */
@@ -151,7 +152,7 @@ function showRobot(parts, ways, state) {
   setText(parts.word, robot ? `${robot.robot}${robot.emulated ? " · emulated robot" : ""}` : "unknown");
   const before = robot?.previous_run;
   const broken = !ready && before?.state === "interrupted"
-    ? `The last run, of “${before.gait_name}”, was interrupted. ${before.sentence}` : null;
+    ? `The last run was interrupted. Its gait was “${before.gait_name}”. ${before.sentence}` : null;
   setText(parts.sentence, [robot?.sentence, broken, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${capital(robot.stop_text)}.` : null].filter(Boolean).join(" "));
   for (const name of ["connect", "disconnect", "arm", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
@@ -178,6 +179,8 @@ function lastRun(robot) {
   return before ? `${name(before.gait_name)}: ${before.state}.` : "";
 }
 
+const NO_SUMMARY = "The summary of this run is not ready yet. Wait until the page shows the summary.";
+
 function whyNotSend(state) {
   const { robot, view, runSummary, connected } = state;
   if (!connected) return "The studio does not answer.";
@@ -186,7 +189,8 @@ function whyNotSend(state) {
   if (!view?.approval) return "Check and approve the gait first.";
   if (whyNotHeld(robot)) return whyNotHeld(robot);
   if (robot.allowed?.send) return robot.allowed.send;
-  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash || !isOfRunRange(runSummary, state)) return "The summary of this plan is not ready yet.";
+  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash
+    || !isOfRunRange(runSummary, state)) return NO_SUMMARY;
   return runSummary.reason ?? null;
 }
 
@@ -228,7 +232,7 @@ export function mountRobot(store, edits, playback) {
   store.watch(({ robot, view, runSummary, selected, runRange, connected }) => [robot, view, runSummary, selected, runRange, connected], (state) => {
     const reason = whyNotSend(state);
     send.allow(reason);
-    setText(parts.sendNote, reason ?? "Hold the button or Enter for one second. "
+    setText(parts.sendNote, reason ?? "To send the gait, hold the button or the key Enter for one second. "
       + "Or click once to start a countdown.");
     parts.summary.replaceChildren(...summaryRows(state));
     setText(parts.stopText, stopSentence(stopLimit(state)));

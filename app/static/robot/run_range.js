@@ -65,7 +65,7 @@ export function runRangePart(store, playback) {
     times.readOnly = Boolean(reason);
     setAttribute(times, "aria-disabled", reason ? "true" : null);
     setAttribute(times, "aria-description", reason);
-    const help = `How often the robot walks the gait, 1 to ${MOST_ITERATIONS} times`;
+    const help = `The number of times that the robot walks the gait, 1 to ${MOST_ITERATIONS}`;
     setAttribute(times, "title", reason ?? help);
     if (document.activeElement !== times) times.value = String(runRangeOf(state).iterations);
   });

@@ -38,7 +38,7 @@ function laterEdit({ robot, view, selected, pending, gesture }) {
   if (!runIsOn(robot) || !view || robot.run?.gait !== selected) return "";
   const isSame = !pending.length && !gesture && view.approval?.waypoints_hash === robot.run.waypoints_hash;
   return isSame ? "" : "The run continues with the approved version of the gait. "
-    + "The page shows a later edit.";
+    + "The page shows a newer version.";
 }
 
 function actButton(store, text, verb, help) {
@@ -67,7 +67,7 @@ export function runningPart(store) {
     if (!planIsOn(robot)) return;
     if (!connected) {
       setText(left, "–");
-      setText(done, `last answer at ${clockTime(heard)}`);
+      setText(done, `last answer of the studio at ${clockTime(heard)}`);
       return;
     }
     const since = robot.robot === "moving" ? (performance.now() - known.at) / 1000 : 0;

@@ -54,7 +54,7 @@ export function sendControl({ prepare, send }) {
     setText(number, String(COUNTDOWN_S));
     cancelButton.focus({ preventScroll: true });
     countdown.scrollIntoView({ block: "nearest" });
-    announce(`The gait is sent in ${COUNTDOWN_S} seconds.`);
+    announce(`The studio sends the gait to the robot in ${COUNTDOWN_S} seconds.`);
     timer = setInterval(() => {
       // Where Cancel cannot be seen or pressed any more, nothing is sent.
       if (!isInReach(countdown)) return cancel();
@@ -110,7 +110,7 @@ export function sendControl({ prepare, send }) {
     allow(why) {
       reason = why;
       button.classList.toggle("primary", !why);
-      setAllowed(button, why, "Hold the button or Enter for one second. "
+      setAllowed(button, why, "To send the gait, hold the button or the key Enter for one second. "
         + "Or click once to start a countdown that you can cancel");
       if (!why) return;
       cancel();

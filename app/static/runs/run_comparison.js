@@ -36,9 +36,10 @@ function extentText(both) {
   const { waypoints, runs, apart_mm: apart } = both;
   const stopped = runs.some(({ reached, count }) => reached !== count);
   const [count, last] = [counted(waypoints.length, "waypoint"), placeText(both, waypoints.length - 1)];
-  const end = `The comparison covers the ${count} that both runs reached, up to ${last}`;
-  const other = apart > SAME_MM ? ` The two runs had different waypoints: their commanded strokes differ by up to ${fixed(apart, 2)} mm.` : "";
-  return `${end}${stopped ? ", where the shorter run ended" : ""}.${other}`;
+  const end = stopped ? ` The shorter run ended at ${last}.` : ` The last of these is ${last}.`;
+  const other = apart > SAME_MM ? " The two runs had different waypoints. "
+    + `Their commanded strokes differ by up to ${fixed(apart, 2)} mm.` : "";
+  return `The comparison covers the ${count} that both runs reached.${end}${other}`;
 }
 
 function plotPart(both) {
@@ -72,8 +73,8 @@ function tables({ runs: [one, other] }) {
   const largest = (figures) => [figures.largest_mm, Math.max(...figures.foot_largest_mm), figures.body_largest_mm];
   return [
     figureTable("Times, s", "The table covers only the waypoints that both runs reached. "
-      + "Duration: from the first message to the last arrival. "
-      + "Expected: the duration that the firmware's speed ramps predict",
+      + "Duration: from sending the first waypoint until the robot reached the last waypoint. "
+      + "Expected: the duration computed from the firmware's speed ramps",
       head, rowsOf(words(["duration", "expected", "slowest move", "to the start pose"]), times(one), times(other), 1)),
     figureTable("Largest errors, mm", "Largest error of any motor, any foot and the body. "
       + "The table covers only the waypoints that both runs reached",

@@ -56,7 +56,7 @@ const ON = ["moving", "pausing", "paused"];
 const endOf = (run) => (run.state === "running" ? null : run.states.find(({ link, robot }) => link !== "ready" || !ON.includes(robot))?.cause) ?? run.sentence;
 
 const holeText = ({ left_out: bytes }) =>
-  `The record of this run is not complete. The disk was full, so ${bytes} bytes were not recorded.`;
+  `The record of this run is not complete. The studio could not write ${bytes} bytes to the data folder.`;
 
 /** The choice of another run, and the comparison of the two. */
 function comparing(run, others, tables) {
@@ -73,7 +73,8 @@ function comparing(run, others, tables) {
   return h("label", { class: "run-against quiet" }, "Compare with ", select);
 }
 
-const MCAP_HELP = "Download a recording for Foxglove and similar viewers: strokes, commands, states and bytes";
+const MCAP_HELP = "Download this run as an MCAP file for Foxglove and similar viewers. "
+  + "The file contains the strokes, commands and states, and the bytes on the cable";
 
 const file = (run, form, text, help) => h("a", { href: `/api/runs/${encodeURIComponent(run.id)}/run.${form}`, download: "", text, title: help });
 

@@ -56,8 +56,15 @@ const plain = (values) => values.map((value) => ({ value, text: value }));
  * @returns {{element: HTMLElement, refresh: () => Promise<object[]|null>}} `refresh` resolves to the runs that are listed
  */
 export function runList(open) {
-  const [gait, state, operator] = [choice("Gait of the runs", "Only runs of this gait"), choice("Result of the runs", "Only runs with this result"), choice("Operator of the runs", "Only runs that this person sent")];
-  const [since, until] = [dayField("Since", "Runs since", "Started on this day or later"), dayField("Until", "Runs until", "Started on this day or earlier")];
+  const [gait, state, operator] = [
+    choice("Gait of the runs", "Show only the runs of the chosen gait"),
+    choice("Result of the runs", "Show only the runs with the chosen result"),
+    choice("Operator of the runs", "Show only the runs that the chosen person sent"),
+  ];
+  const [since, until] = [
+    dayField("Since", "Runs since", "Show only the runs that started on this day or later"),
+    dayField("Until", "Runs until", "Show only the runs that started on this day or earlier"),
+  ];
   const [count, list] = [h("p", { class: "quiet", role: "status" }), h("ul", { class: "run-list", role: "list", "aria-label": "Runs" })];
   oneTabStop(list);
   const more = h("button", { class: "link", text: "Older runs", hidden: true });

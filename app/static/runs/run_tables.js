@@ -11,9 +11,9 @@ export const motorName = (_, motor) => ({ text: owner(motor), foot: Math.floor(m
 /** Errors of motors and feet of one run, mm. */
 export function errorTables(errors) {
   return [
-    figureTable("Feet, mm", "Foot positions are computed from the measured strokes. "
-      + "Mean and largest: distance from the planned position at each reached waypoint. "
-      + "Path: largest distance from the planned path at any time, also between waypoints",
+    figureTable("Feet, mm", "Mean and largest: distance of the foot from its planned position at the reached "
+      + "waypoints. Path: largest distance from the planned path at any time, also between waypoints. "
+      + "The studio computes foot positions from the measured strokes",
       ["", "mean", "largest", "path"],
       errors.foot_mean_mm.map((mean, foot) => [footName(foot), fixed(mean, 2), fixed(errors.foot_largest_mm[foot], 2), fixed(errors.foot_path_mm[foot], 2)])),
     figureTable("Motors, mm", "Difference between measured and commanded stroke at each reached waypoint. "

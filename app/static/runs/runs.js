@@ -17,7 +17,7 @@ const MOST_TRIES = 10;
 /** Compares the shown gait with the run that is laid over it. */
 function standing(store, run) {
   const { view, selected } = store.state;
-  if (run.gait.startsWith("file:")) return "This run came from a file on the command line. "
+  if (run.gait.startsWith("file:")) return "The waypoints of this run came from a file on the command line. "
     + "The plots cannot show the measured strokes of such a run.";
   const known = store.state.gaits.some(({ id }) => id === run.gait);
   if (selected !== run.gait) {
@@ -26,7 +26,7 @@ function standing(store, run) {
   }
   if (view?.plan?.waypoints_hash !== run.waypoints_hash) {
     return "The gait has changed since this run. "
-      + "The plots show the old measured strokes and the new plan, which can differ.";
+      + "The plots show the measured strokes of this run and the plan of the changed gait.";
   }
   return "The plots show the measured strokes together with the planned strokes.";
 }

@@ -9,7 +9,8 @@ import { uploadField, videoRow } from "./video_rows.js";
 
 const UPLOAD_HELP = "Choose a video that shows the robot from below, through a glass platform. "
   + "The studio finds the four coloured feet in every frame.";
-const NONE_YET = "No video yet. Your videos and the recordings of cameras are kept in the data folder.";
+const NONE_YET = "There is no video yet. "
+  + "The studio stores your videos and the camera recordings in its data folder.";
 
 /**
  * Opens the videos in the trials' panel.

@@ -17,8 +17,8 @@ const SETUP_HELP = "A camera setup describes the lens, the position of the platf
 
 /** The choice of a setup, with what is missing from it. */
 function setupChoice({ setups, chosen, changed, edit, make }) {
-  const select = h("select", { "aria-label": "Camera setup", title: "Choose how the camera saw the "
-    + "platform, and which colours the feet have" },
+  const select = h("select", { "aria-label": "Camera setup", title: "Choose the setup of the camera "
+    + "that recorded this video" },
     ...setups.map(({ id, setup }) => h("option", { value: id, text: setup.name })), setups.length ? null : h("option", { value: "", text: "none yet" }));
   const state = h("p", { class: "why", role: "status" });
   const change = h("button", { type: "button", class: "link", text: "Change this setup…" });

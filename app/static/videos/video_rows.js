@@ -35,7 +35,8 @@ function buildUpload() {
 
   function progress(share, size) {
     bar.style.transform = `scaleX(${share})`;
-    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent` : "Sent. The studio is reading the video…");
+    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent`
+      : "The upload is complete. The studio is reading the video…");
   }
 
   async function send() {
@@ -52,8 +53,9 @@ function buildUpload() {
     }
     ending = null;
     [going.hidden, file.disabled, file.value] = [true, false, ""];
-    if (video?.again) toast(`The studio already has “${chosen.name}”, sent ${clockTime(video.made)} as `
-      + `“${video.name}”.`, { of: "studio" });
+    if (video?.again) toast(`The studio already has “${chosen.name}”. `
+      + `The file has the same content as the video “${video.name}”, sent ${clockTime(video.made)}.`,
+    { of: "studio" });
     if (video && field.element.isConnected) field.done(video);
     else if (video) {
       const act = () => field.done(video);

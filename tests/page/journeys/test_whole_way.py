@@ -144,7 +144,7 @@ def edit_while_the_robot_moves(page: Page) -> None:
     step.press("Enter")
     page.get_by_role("tab", name="Run").click()
     expect(later).to_have_text(
-        "The run continues with the approved version of the gait. The page shows a later edit."
+        "The run continues with the approved version of the gait. The page shows a newer version."
     )
     look(page, "edited while it runs")
 

@@ -100,7 +100,10 @@ def compare_with_a_stopped_run(page: Page) -> None:
     choice.select_option(label=label)
     words = panel(page).get_by_role("status", name="Comparison")
     expect(words).to_have_text(
-        re.compile(r"The comparison covers the \d+ waypoints .* where the shorter run ended\.$")
+        re.compile(
+            r"^The comparison covers the \d+ waypoints that both runs reached\. "
+            r"The shorter run ended at waypoint \d+\.$"
+        )
     )
     times = panel(page).get_by_role("table", name="Times, s")
     expect(times.get_by_role("row", name=re.compile("^duration"))).to_have_text(

@@ -27,7 +27,7 @@ function mountFastest(store, gaitTools) {
     openStep("design");
   });
   const help = "Make a gait that is as fast as the robot's firmware allows. "
-    + "Each choice shows its speed in mm/s";
+    + "The dialog shows the robot's speed for each option";
   gaitTools.addNew({ text: "Fastest gait…", help, act: () => open() });
   store.watch(({ fastestWanted }) => [fastestWanted], ({ fastestWanted }) => {
     if (!fastestWanted) return;

@@ -86,6 +86,6 @@ export function paceText(gait) {
 export function timesText(gait) {
   const { plan_seconds: planned, robot_seconds: takes } = gait;
   if (takes === null) return "";
-  const lasts = [`${fixed(planned)} s planned`, `${fixed(takes)} s on the robot`];
-  return [...lasts, paceText(gait)].filter(Boolean).join(" · ");
+  const lasts = `Takes ${fixed(planned)} s as planned · ${fixed(takes)} s on the robot`;
+  return [lasts, paceText(gait)].filter(Boolean).join(" · ");
 }

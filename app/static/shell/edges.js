@@ -6,7 +6,8 @@ import { remember, remembered } from "../lib/remembered.js";
 
 const STEP_PX = 16;
 const LEAST_STAGE_PX = 320;
-const HELP = "Drag this edge, or use the arrow keys. Double click or Enter restores the usual size";
+const HELP = "To change the size, drag this edge or press an arrow key. "
+  + "Double click or Enter restores the usual size";
 
 /**
  * An edge that sets a size of the page.

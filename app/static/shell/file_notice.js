@@ -5,9 +5,10 @@ import { byId, h } from "../lib/dom.js";
 import { attempt } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
 
-const USE_FILE = "Replace the gait by the content of the file. Undo brings back the gait that you see now";
-const KEEP_MINE = "Write the file again as you last saved it here. "
-  + "The changed file is kept in the folder set-aside";
+const USE_FILE = "Replace this gait with the content of the changed file. "
+  + "Undo brings back the gait that you see now";
+const KEEP_MINE = "Write the gait to its file again, as the studio last saved it. "
+  + "The studio moves the changed file to the folder set-aside";
 
 /**
  * Shows over the preview that the shown gait's file was changed, for as long as it is so.

@@ -11,7 +11,9 @@ const STATES = {
   infeasible: { mark: "bad", sentence: "No motion of this gait keeps every limit" },
   edited: { mark: "edited", sentence: "Unsaved changes" },
   timed: { mark: "good", sentence: "The studio has computed how long the robot takes for this gait" },
-  unknown: { mark: "unknown", sentence: "The time of this gait on the robot is not known yet" },
+  unknown: {
+    mark: "unknown", sentence: "The studio has not yet computed how long the robot takes for this gait",
+  },
 };
 
 /**

@@ -98,8 +98,8 @@ function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
     const view = await api.recover(id);
     await selectGait(store, id);
     acceptView(store, view);
-    toast(`“${view.name}” can be shown again. The list Versions keeps the state that could not be shown. `
-      + "A file that could not be read is now in the folder set-aside.");
+    toast(`“${view.name}” can be shown again. `
+      + "The studio keeps unreadable states in the list Versions and unreadable files in the folder set-aside.");
   });
   openDialog((close) => {
     const then = (act) => () => { close(null); act(); };
@@ -306,8 +306,8 @@ function found(gait, search) {
  * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string, clear: () => void}}
  */
 function gaitSearch(changed) {
-  const title = "Type a word of the gait's name, robot, orientation or kind. "
-    + "Or type its foot order, such as 1324";
+  const title = "Type a word from the name, robot, orientation or kind of a gait. "
+    + "You can also type a foot order, such as 1324";
   const field = h("input", {
     type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", title,
     autocomplete: "off", spellcheck: "false",

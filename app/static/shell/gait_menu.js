@@ -90,7 +90,7 @@ function gaitActs(store, edits, show, deletedHere) {
     },
     ...exports,
     {
-      text: "Delete", help: "Delete this saved gait. New › Deleted gaits can bring this gait back",
+      text: "Delete", help: "Delete this saved gait. To bring it back, choose New › Deleted gaits",
       act: attempt(() => remove(store, show, deletedHere)),
       refusal: () => (lineOf(store.state)?.kind === "saved" ? null : KEPT),
     },
@@ -114,13 +114,14 @@ export function mountGaitTools(store, edits, show) {
       act: attempt(() => makeGait(store, show)),
     },
     {
-      text: "Import…", help: "Read files: gaits, trajectories with their metadata, waypoints or phase lists",
+      text: "Import…",
+      help: "Import gaits, trajectories with their metadata, waypoints or phase lists from files",
       act: () => importFiles(show),
     },
     { text: "Deleted gaits…", help: "Bring back a gait that was deleted", act: attempt(() => bringBack(show)), refusal: noneDeleted },
   ] });
   const acts = actionMenu({
-    name: "Gait", help: "Copy, export or delete the shown gait, or search patterns for this gait",
+    name: "Gait", help: "Copy, export or delete the shown gait, or search for footfall patterns",
     entries: gaitActs(store, edits, show, deletedHere),
   });
   byId("gait-menus").append(acts.element, news.element);
@@ -165,7 +166,7 @@ async function bodies(files) {
   const gaits = files.filter(({ name }) => !name.endsWith(COMPANION));
   if (!gaits.length) {
     throw new Error(`“${files[0].name}” has only the metadata of a trajectory. `
-      + "Choose also the file of the trajectory (CSV).");
+      + "Also choose the CSV file of the trajectory.");
   }
   return Promise.all(gaits.map(async (file) => {
     const companion = companions.get(file.name.replace(/\.csv$/i, ""));

@@ -39,8 +39,10 @@ function titleOf(job) {
 const spoken = (job) => (isTracking(job) || isSearch(job) || isAtlas(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
 function titleHelp(job) {
   if (isSearch(job)) return "Open this search and its table of results";
-  if (isAtlas(job)) return "Open the atlases, with their maps. You can go on with a run there";
-  if (!isTracking(job)) return "Show the curve and the result of this job";
+  if (isAtlas(job)) return "Open the list of atlases with their maps. There you can also continue an atlas";
+  if (isSimulation(job)) return "Show the gait of this job and its simulation";
+  if (isTiming(job)) return "Show the gait of this job";
+  if (!isTracking(job)) return "Show the convergence curve and the result of this optimisation";
   return job.result?.trial ? "Open the trial of this video" : "Open this video";
 }
 
@@ -100,7 +102,8 @@ function show(part, job, shown) {
 function offerTrial(store, job) {
   if (document.querySelector(`[data-tracks="${job.video}"]`)) return;
   const act = () => store.set({ trialWanted: { trial: job.result.trial } });
-  toast(`${titleOf(job)} is done and has made a new trial.`, { action: { label: "Open the trial", act } });
+  const done = `${titleOf(job)} is done. The studio has made a new trial from this video.`;
+  toast(done, { action: { label: "Open the trial", act } });
 }
 
 function announceEnded(store, before, jobs) {

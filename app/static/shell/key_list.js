@@ -8,25 +8,27 @@ const GROUPS = {
     ["Space", "Play or pause the preview. Space never starts the robot"],
     ["Esc", "During a run: stop the robot. Otherwise: "
       + "cancel the drag or preview, close the dialog, or clear the selection"],
-    ["← →", "Move the playhead by one sample; with Shift by ten"],
+    ["← →", "Move the playhead by one sample. With Shift, move it by ten samples"],
     ["Home, End", "Move the playhead to the first or last sample"],
     ["L", "Loop the selected samples, or all samples, while the preview plays"],
     ["+ − F", "Zoom in, zoom out, show the whole timeline"],
     ["Ctrl+Z", "Undo"],
     ["Ctrl+Y", "Redo; Ctrl+Shift+Z does the same"],
     ["Ctrl+S", "Save"],
-    ["F6", "Go to the next part of the page; with Shift to the previous part. "
-      + "Shift+F6 in the top bar goes to the button of the next action"],
-    ["[ ]", "[ closes or opens the drawer at the left, ] the inspector at the right. "
-      + "Design, Simulate, Check & approve and Run open the inspector too"],
+    ["F6", "Go to the next part of the page. Shift+F6 goes to the previous part. "
+      + "From the top bar, Shift+F6 goes to the button for the next action"],
+    ["[ ]", "[ opens or closes the drawer at the left. ] opens or closes the inspector at the right. "
+      + "The tabs Design, Simulate, Check & approve and Run also open the inspector"],
     ["?", "This list"],
   ],
   "Cells of the timeline": [
-    ["Arrows", "Move between cells; with Ctrl to the next start or end of a swing"],
-    ["Home, End", "Go to the first or last cell of the row; with Ctrl, of the whole timeline"],
-    ["Space, Enter", "Change the cell to swing or stance. "
-      + "Space and Enter work only if you came to the cell by keyboard"],
-    ["Shift+arrows", "Select cells; Shift+Home and Shift+End select to the start or end of the row"],
+    ["Arrows", "Go to the neighbouring cell. With Ctrl, go to the next start or end of a swing"],
+    ["Home, End", "Go to the first or last cell of the row. "
+      + "With Ctrl, go to the first or last cell of the whole timeline"],
+    ["Space, Enter", "Change the cell from stance to swing, or from swing to stance. "
+      + "Space and Enter work only if you went to the cell with the keyboard"],
+    ["Shift+arrows", "Select cells. Shift+Home selects up to the start of the row, "
+      + "Shift+End up to the end of the row"],
     ["Shift+Space", "Select the row"],
     ["Ctrl+A", "Select all"],
     ["Ctrl+C, X, V, D", "Copy, cut, paste, duplicate"],
@@ -35,13 +37,14 @@ const GROUPS = {
   ],
   "Pointer on the timeline": [
     ["Drag", "Use the chosen tool. "
-      + "With Paint: a drag on stance draws a swing, a drag on a swing moves the swing or its end"],
-    ["Alt or B + drag", "Paint, also when the drag starts on a swing. B alone chooses the tool Paint"],
+      + "With the tool Paint, a drag on stance draws a swing. A drag on a swing moves the swing or its end"],
+    ["Alt or B + drag", "With the tool Paint: draw stance if the drag starts on a swing. "
+      + "B without a drag chooses the tool Paint"],
     ["Shift + drag", "Lock cells. A drag that starts on a locked cell unlocks cells"],
     ["Ctrl + drag", "Select cells. Shift + click extends the selection. "
       + "A click on a row's name selects the row"],
     ["Double click", "With the tool Select: select the whole swing. "
-      + "Then drag the swing to move it, or with Alt to copy it"],
+      + "Then drag the swing to move it, or hold Alt and drag to copy it"],
     ["Ctrl + wheel", "Zoom the timeline. The wheel alone scrolls"],
   ],
   "Lists and toolbars": [
@@ -51,33 +54,34 @@ const GROUPS = {
     ["Double click", "On a gait in the list: change its name"],
   ],
   "Touch": [
-    ["Long press", "Show the explanation of a control, as a mouse pointer does"],
+    ["Long press", "Show the help text of a control"],
     ["Two fingers", "Zoom the timeline"],
   ],
   "Segment table": [
     ["Letters, Enter", "Choose a segment"],
     ["Delete", "Let the foot wait in this segment"],
     ["Ctrl+C, X, V", "Copy, cut, paste as in a spreadsheet. "
-      + "Ctrl+D fills the selected cells below the first row"],
-    ["Insert", "Insert a new segment after the selected segments; with Alt before them"],
+      + "Ctrl+D copies the first selected row into the selected rows below it"],
+    ["Insert", "Insert a new segment after the selected segments. "
+      + "Alt+Insert inserts it before the selected segments"],
     ["Ctrl+Delete", "Remove the selected segments"],
   ],
   "Parts of a sequence": [
-    ["↑ ↓", "Go to the previous or next part; with Alt move the part up or down"],
+    ["↑ ↓", "Go to the previous or next part. With Alt, move the part up or down"],
     ["Enter", "Move the playhead to the start of the part"],
     ["Delete", "Remove the part from the sequence"],
   ],
   "Pattern search": [
-    ["← →", "On the cursor of a gait: move by one sample; with Shift by ten. "
+    ["← →", "On the cursor of a gait: move the cursor by one sample. With Shift: by ten samples. "
       + "Home and End: go to the first or last sample"],
-    ["Space, Enter", "On a cell: draw the other value, which is then fixed. "
-      + "On a drawn cell: the solver chooses the value again"],
+    ["Space, Enter", "Change the cell between swing and stance, and fix its value. "
+      + "On a cell that you have fixed: let the solver choose the value again"],
     ["K", "Fix the present value of the cell"],
     ["↑ ↓", "In the list of the best patterns: show the previous or next pattern"],
   ],
   "Pictures of videos and cameras": [
     ["Wheel, + − F", "Zoom in, zoom out, show the whole picture. A drag or the arrow keys move the picture"],
-    ["Arrows", "On a point: move the point by 1 px; with Shift by 10 px, with Alt by 0.1 px. "
+    ["Arrows", "On a point: move the point by 1 px. With Shift: by 10 px. With Alt: by 0.1 px. "
       + "Delete removes the point"],
   ],
   "Goal and numbers": [

@@ -13,7 +13,7 @@ const ORIENTATIONS = [["FB", "Along the diagonal (FB)"], ["FBS", "Along x (FBS)"
 const NUMBERS = [
   {
     key: "step", label: "Step", unit: "mm", min: 0, max: 60, step: "any",
-    help: "How far the body moves in one iteration, in which each foot steps once",
+    help: "Each foot steps once in an iteration. The step is how far the body moves in one iteration",
   },
   {
     key: "phase_knots", label: "Phase length", unit: "samples", min: 2, max: 50, step: 1,
@@ -104,8 +104,8 @@ function form(list, preset) {
     const samples = robot().legs * 2 * Number(value("phase_knots")) + Number(value("closing_knots"));
     const { motors, strokes } = robot();
     const coupled = !robot().coupled ? ""
-      : ` ${motors} motors drive ${strokes} strokes, so the feet may not follow the plan exactly. `
-        + "Check shows how the feet really move.";
+      : ` In this robot, ${motors} motors drive ${strokes} strokes, `
+        + "so the feet cannot always follow the plan exactly. Check shows how the feet really move.";
     const lasts = ((samples - 1) * KNOT_SECONDS).toFixed(1);
     note.textContent = `One iteration has ${samples} samples and takes ${lasts} s.${coupled}`;
   }

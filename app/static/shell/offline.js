@@ -8,14 +8,14 @@ const PARTS = [
   "#drawers", ".rail", ".inspector-head", "#sections", ".inspector-foot", ".pattern-panel", "#tools", "#timeline", "#parts", "#segments", ".pattern-view",
   ".gait-pill", ".history", "#operator", "#goal", "#pose", "#file-notice",
 ];
-const SENTENCE = "No connection to the studio. Until the connection is back you can only press Stop, "
-  + "and Stop may not reach the robot.";
+const SENTENCE = "No connection to the studio. Until the connection is back, "
+  + "you can only watch the preview and press Stop. Stop might not reach the robot.";
 
 function sentence({ pending, left }) {
   const unsent = pending.length + left.length;
   if (!unsent) return SENTENCE;
-  const edits = unsent === 1 ? "one edit and sends the edit" : `${unsent} edits and sends the edits`;
-  return `${SENTENCE} This page keeps ${edits} when the connection is back.`;
+  const [edits, them] = unsent === 1 ? ["one unsent edit", "it"] : [`${unsent} unsent edits`, "them"];
+  return `${SENTENCE} This page keeps ${edits}, and sends ${them} when the connection is back.`;
 }
 
 /** Switches the parts off while the studio does not answer, and says so. */

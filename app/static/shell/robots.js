@@ -27,7 +27,8 @@ export function robotOptions(list, legs = null) {
  */
 export function robotField(edits, makeNew) {
   const select = h("select", { "aria-label": "Robot" });
-  const title = "The robot that walks this gait. For a robot with another number of legs you make a new gait";
+  const title = "The robot that walks this gait. "
+    + "If you choose a robot with a different number of legs, a dialog for a new gait opens";
   const element = h("label", { class: "field robot-field", title },
     h("span", { class: "name", text: "Robot" }), select);
   let [known, shown, legs] = [[], null, null];

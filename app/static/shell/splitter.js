@@ -19,8 +19,8 @@ const [LEAST_SCALE, MOST_SCALE] = [0.8, 3];
 const [USUAL_SHARE, LOW_SHARE, LOW_PX] = [0.5, 0.43, 800];
 /** Narrower pages scroll as a whole. */
 const NARROW_PX = 900;
-const HELP = "Drag this edge, or use Up and Down. Home and End set the smallest and the largest height. "
-  + "Double click or Enter restores the usual height";
+const HELP = "To change the height, drag this edge or press Up or Down. "
+  + "Home and End set the smallest and the largest height. Double click or Enter restores the usual height";
 
 const most = () => Math.max(LEAST_PX, window.innerHeight - byId("stop").closest("header").offsetHeight - LEAST_STAGE_PX);
 

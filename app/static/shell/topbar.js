@@ -94,8 +94,8 @@ function mountName(store, edits) {
   });
 }
 
-const UNFIT = "After the last change, some segments of the segment table do not fit together. "
-  + "Only this tab keeps the change. The gait still uses the table before the change.";
+const UNFIT = "After your last change, some segments of the segment table do not fit together. "
+  + "The gait still uses the old table. Your change exists only in this tab.";
 
 /** How the shown gait is kept, in a few words. */
 function savedWord({ view, pending, refused, connected }, unfit) {
@@ -110,7 +110,8 @@ function savedWord({ view, pending, refused, connected }, unfit) {
 function savedHelp(view) {
   const file = view.saved_at ? `Last saved to the data folder: ${clockTime(view.saved_at)}.`
     : "The gait has no file in the data folder yet.";
-  return view.edited ? `The studio keeps every edit, also without Save. ${file} Save writes the file.` : file;
+  return view.edited ? "The studio stores every edit at once, even before you press Save. "
+    + `${file} Save writes the gait to its file.` : file;
 }
 
 function mountHistory(store, edits) {
@@ -122,7 +123,7 @@ function mountHistory(store, edits) {
     const { view, refused } = state;
     const own = ownSteps(view);
     const draft = segmentDraftOf(state).steps.at(-1)?.label;
-    const label = draft ?? (refused ? "the drawing that was not accepted" : own.undo);
+    const label = draft ?? (refused ? "the drawing that the studio did not accept" : own.undo);
     setText(byId("undo-label"), label ? lowered(label) : "");
     setAllowed(undo, label ? null : "Nothing to undo.", `Undo: ${label} (Ctrl+Z)`);
     setAllowed(redo, own.redo ? null : "Nothing to redo.", `Redo: ${own.redo} (Ctrl+Shift+Z)`);
@@ -158,7 +159,7 @@ function mountStates(store) {
     operator.replaceChildren(h("span", { class: "initial", "aria-hidden": "true", text: state.operator ? state.operator.charAt(0).toUpperCase() : "?" }), h("span", { class: "name", text: state.operator || "Your name" }));
     operator.toggleAttribute("data-named", Boolean(state.operator));
     setAttribute(operator, "aria-label", state.operator ? `Operator ${state.operator}` : "Your name. Operator not named");
-    operator.title = "Your name is recorded with approvals and runs. Click to change your name.";
+    operator.title = "The studio saves your name with each approval and each run. Click to change your name.";
   });
 }
 
@@ -173,8 +174,8 @@ export function mountTopbar(store, edits) {
   byId("stop").addEventListener("click", () => stopRobot(store));
   store.watch((state) => [stopLimit(state)], (state) => {
     const limit = stopLimit(state);
-    const within = limit ? `The robot ends its present move and stops within ${seconds(limit)} s.`
-      : "The robot ends its present move and then stops.";
+    const within = limit ? `The robot finishes its current move and stops within ${seconds(limit)} s.`
+      : "The robot finishes its current move and then stops.";
     byId("stop").title = `Stop the robot (Esc during a run). ${within}`;
   });
 }

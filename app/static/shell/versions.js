@@ -26,7 +26,8 @@ function option(version, choose) {
 function parts(id) {
   const list = h("ul", { class: "version-list", role: "listbox", tabindex: "0", "aria-label": "Versions", data: { arrows: "" } });
   const difference = h("div", { class: "version-difference", role: "region", "aria-label": "Difference", tabindex: "0" });
-  const against = h("select", { "aria-label": "Compared with", title: "Choose what to compare this version with" });
+  const help = "Choose the state that the selected version is compared with";
+  const against = h("select", { "aria-label": "Compared with", title: help });
   const restore = h("button", { type: "button", class: "primary", text: "Restore" });
   const name = h("input", { "aria-label": "Name of this state", placeholder: "Name for the present state", maxlength: "80", autocomplete: "off" });
   return { id, list, difference, against, restore, name, heading: h("h4", {}) };
@@ -79,7 +80,8 @@ function panel(store, edits, ui) {
       ui.list.removeAttribute("aria-activedescendant");
       setAllowed(ui.restore, "There is no version yet.");
       const none = "There is no version yet. "
-        + "A version is made when you save, approve or name the gait, and every two minutes while you edit.";
+        + "The studio makes a version when you save the gait, approve it or name its state. "
+        + "While you edit, it also makes a version every two minutes.";
       ui.difference.replaceChildren(h("p", { class: "quiet", text: none }));
       return undefined;
     }

@@ -160,7 +160,9 @@ export function numberField(store, edits, field) {
   const handle = h("span", { class: "name drag", text: field.label });
   const refusal = refusalOf(input);
   const limit = limitHint(store, field);
-  const element = h("label", { class: "field", title: `${field.help} (${field.min} to ${field.max} ${field.unit}). Drag the name to change the value` },
+  const title = `${field.help} (${field.min} to ${field.max} ${field.unit}). `
+    + "Drag the name of the field to change the value";
+  const element = h("label", { class: "field", title },
     handle, h("span", { class: "box", data: { unit: field.unit } }, input), limit.element, refusal.element);
   let value = null;
   let written = "";

@@ -29,7 +29,8 @@ export function holderSentence(robot) {
 /** Asks for the robot, gives it, keeps it, takes it over or lets it go, in the name of who sits here. */
 function handOver(store, act) {
   return attempt(async () => {
-    if (!(await needOperator(store, "Other people see the name of the person in control."))) return;
+    const why = "Other people see your name while you are in control of the robot.";
+    if (!(await needOperator(store, why))) return;
     acceptRobot(store, await api.lease(act, store.state.operator));
   });
 }
@@ -108,8 +109,12 @@ function tell(store) {
     const now = robot?.lease ?? null;
     const isRequested = isMine(now) && now.asker && now.asker.page !== before?.asker?.page;
     if (isRequested) toast(`${now.asker.name} asks for control of the robot. Answer in the Run step.`, { of: "studio" });
-    if (isMine(now) && isTaken(before) && !isMine(before)) toast("You are in control now.", { of: "studio" });
-    if (isMine(before) && isTaken(now) && !isMine(now)) toast(`${now.name} is in control now.`, { of: "studio" });
+    if (isMine(now) && isTaken(before) && !isMine(before)) {
+      toast("You are now in control of the robot.", { of: "studio" });
+    }
+    if (isMine(before) && isTaken(now) && !isMine(now)) {
+      toast(`${now.name} is now in control of the robot.`, { of: "studio" });
+    }
     before = now;
   });
 }

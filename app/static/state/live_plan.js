@@ -11,7 +11,7 @@ import { hasNoMotion, ownPlan, shownDocument, shownText } from "./store.js";
 
 const IDLE_MS = 10;
 const HELD_MS = 300;
-const BROKEN_OFF = "The search was interrupted. Change the drawing to start a new search.";
+const BROKEN_OFF = "The search for remedies was interrupted. Change the drawing to start a new search.";
 const NOTHING = { list: [], searching: false, trying: false, complete: true };
 
 /** Whether the page shows an edit that the server's view does not have yet. */

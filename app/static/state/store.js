@@ -135,7 +135,8 @@ export function hasNoMotion(plan) {
 /** Why the check that was seen of a gait no longer counts. */
 export function checkGone(view, { revision }) {
   if (view.revision !== revision) return "the gait changed";
-  return view.simulation?.fresh ? "there is a newer simulation" : "the plan was computed again";
+  return view.simulation?.fresh ? "the gait was simulated again after the check"
+    : "the plan was computed again after the check";
 }
 
 /** Takes over a view unless it is of another gait or older than what is shown. */

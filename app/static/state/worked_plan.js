@@ -9,7 +9,10 @@ import { hasNoMotion, ownPlan, shownDocument, shownPlan } from "./store.js";
 /** What is said of each grey: on the stage, in a plot, and of a value under the pointer. */
 export const GREY = {
   worked: { stage: "Grey: the last valid plan.", plot: "grey: last valid plan", value: "last valid plan" },
-  nearest: { stage: "Grey: the nearest motion, which breaks a limit.", plot: "grey: nearest motion, which breaks a limit", value: "nearest motion" },
+  nearest: {
+    stage: "Grey: the motion that breaks the limits least.", plot: "grey: motion that breaks the limits least",
+    value: "breaks the limits least",
+  },
 };
 
 /** Whether the gait has no motion, and nothing else is looked at instead. */

@@ -10,7 +10,7 @@ import { approvalState, checkState, gaitParts, simulateState } from "./step_stat
 import { openStep } from "./steps.js";
 
 const SIMULATE_HELP = "Simulate exactly the waypoints that would be sent to the robot.";
-const CHECK_HELP = "Check tests every rule. Then you can approve the gait.";
+const CHECK_HELP = "Check that the gait keeps every rule. Then you can approve the gait.";
 const APPROVE_HELP = "Only an approved gait can be sent to the robot.";
 const RUN_HELP = "The gait is approved. Now connect, arm and send.";
 
@@ -23,7 +23,8 @@ const ACTS = {
 };
 
 /** Why the act is not possible yet, in a sentence; why there is no motion stands in the step Design. */
-const lackOf = (state, reason) => (hasNoMotion(shownPlan(state)) ? "There is no motion yet." : reason.split(/(?<=\.) /)[0]);
+const lackOf = (state, reason) => (hasNoMotion(shownPlan(state)) ? "This gait has no motion yet."
+  : reason.split(/(?<=\.) /)[0]);
 
 /** The next act for the shown gait. */
 function nextAct(state) {

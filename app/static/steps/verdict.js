@@ -47,10 +47,10 @@ function robotPart(state) {
   const seconds = hasNoMotion(plan) ? null : plan?.robot_seconds;
   if (!seconds) return { figure: NONE, help: "Time and speed on the robot are not known yet." };
   const speed = plan === view?.plan ? paceText(view) : "";
-  const takes = `On the robot the motion takes about ${fixed(seconds)} s${speed && `, which is ${speed}`}.`;
+  const takes = `On the robot the motion takes about ${fixed(seconds)} s${speed && `, at ${speed}`}.`;
   return {
     figure: [`${fixed(seconds)} s`, speed].filter(Boolean).join("  "),
-    help: `${takes} The moves to the start pose are not included.`,
+    help: `${takes} This time does not include the moves to the start pose.`,
   };
 }
 
@@ -60,7 +60,7 @@ function simulatedPart(state) {
   const walking = variations?.runs.filter(({ walks }) => walks).length;
   const figure = mark === "none" ? NONE : variations ? `${walking}/${variations.count}` : word;
   if (mark === "none") return { mark, figure, help: "Not simulated yet." };
-  if (mark === "old") return { mark, figure, help: "The gait was simulated before this edit." };
+  if (mark === "old") return { mark, figure, help: "The simulation is out of date. Simulate the gait again." };
   const share = variations ? ` With slightly changed conditions, the robot walked in ${walking} of ${variations.count} simulations.` : "";
   return { mark, figure, help: `${capital(word)}.${share}` };
 }

@@ -85,4 +85,4 @@ def test_a_companion_alone_is_refused_with_what_is_missing(page: Page, studio: S
     alert = page.get_by_role("alert").filter(
         has_text="“alone.footfall.json” has only the metadata of a trajectory"
     )
-    expect(alert).to_contain_text("Choose also the file of the trajectory (CSV).")
+    expect(alert).to_contain_text("Also choose the CSV file of the trajectory.")

@@ -365,4 +365,8 @@ CHECKED = """async () => {
 
 def test_a_check_that_no_edit_took_away_is_not_said_to_be_gone_by_one(page: Page) -> None:
     said = page.evaluate(CHECKED)
-    assert said == ["there is a newer simulation", "the plan was computed again", "the gait changed"]
+    assert said == [
+        "the gait was simulated again after the check",
+        "the plan was computed again after the check",
+        "the gait changed",
+    ]

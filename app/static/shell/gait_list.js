@@ -99,7 +99,8 @@ function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
     await selectGait(store, id);
     acceptView(store, view);
     toast(`“${view.name}” can be shown again. `
-      + "The studio keeps unreadable states in the list Versions and unreadable files in the folder set-aside.");
+      + "The studio keeps unreadable states in the list Versions "
+      + "and unreadable files in the folder set-aside.");
   });
   openDialog((close) => {
     const then = (act) => () => { close(null); act(); };

@@ -10,7 +10,8 @@ import { hasNoMotion, ownPlan, shownDocument, shownPlan } from "./store.js";
 export const GREY = {
   worked: { stage: "Grey: the last valid plan.", plot: "grey: last valid plan", value: "last valid plan" },
   nearest: {
-    stage: "Grey: the motion that breaks the limits least.", plot: "grey: motion that breaks the limits least",
+    stage: "Grey: the motion that breaks the limits least.",
+    plot: "grey: motion that breaks the limits least",
     value: "breaks the limits least",
   },
 };

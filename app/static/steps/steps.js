@@ -9,7 +9,9 @@ import { gaitParts, stepStates } from "./step_states.js";
 const STEPS = {
   design: { title: "Design", help: "Choose where and how the robot walks. The plan follows your edits." },
   simulate: { title: "Simulate", help: "Simulate exactly the waypoints that would be sent to the robot." },
-  check: { title: "Check & approve", help: "Check that the gait keeps every rule. Then you can approve the gait." },
+  check: {
+    title: "Check & approve", help: "Check that the gait keeps every rule. Then you can approve the gait.",
+  },
   run: { title: "Run", help: "Only an approved gait can be sent to the robot." },
 };
 const NAMES = Object.keys(STEPS);

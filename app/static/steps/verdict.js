@@ -60,7 +60,9 @@ function simulatedPart(state) {
   const walking = variations?.runs.filter(({ walks }) => walks).length;
   const figure = mark === "none" ? NONE : variations ? `${walking}/${variations.count}` : word;
   if (mark === "none") return { mark, figure, help: "Not simulated yet." };
-  if (mark === "old") return { mark, figure, help: "The simulation is out of date. Simulate the gait again." };
+  if (mark === "old") {
+    return { mark, figure, help: "The simulation is out of date. Simulate the gait again." };
+  }
   const share = variations ? ` With slightly changed conditions, the robot walked in ${walking} of ${variations.count} simulations.` : "";
   return { mark, figure, help: `${capital(word)}.${share}` };
 }

@@ -12,7 +12,7 @@ export const GREY = {
   nearest: {
     stage: "Grey: the motion that breaks the limits least.",
     plot: "grey: motion that breaks the limits least",
-    value: "breaks the limits least",
+    value: "motion that breaks the limits least",
   },
 };
 

@@ -11,13 +11,13 @@ import { learnedResult } from "./learning_result.js";
 const POLL_MS = 1000;
 /** Longest wait between two polls of a studio that does not answer. */
 const MOST_POLL_MS = 30000;
-const PURPOSE = "Finds physics parameters that no data sheet gives, such as friction, backlash and centre "
-  + "of mass. "
+const PURPOSE = "Learning finds physics parameters that no data sheet gives, such as friction, backlash "
+  + "and centre of mass. "
   + "For this, learning compares simulated walks with walks of the real robot. "
-  + "To use the result in simulations, keep it as a set, then choose the set in Simulate.";
-const TABLE_HELP = "The table has one row for each trial, like trajectory_averages.csv (rows TrajAa, "
-  + "TrajAb, …). "
-  + "The trajectories are the motions that the robot walked in these trials, "
+  + "To use the fitted values in simulations, keep them as a set. Then choose the set in Simulate.";
+const TABLE_HELP = "Table: one CSV file with one row for each trajectory, like trajectory_averages.csv "
+  + "(rows TrajAa, TrajAb, …). "
+  + "Trajectories: the CSV files of the motions that the robot walked, "
   + "such as walk_a.csv, ambl_b.csv, mtri_c.csv and adjs_d.csv.";
 const OPEN = new Set(["running", "cancelling"]);
 
@@ -59,7 +59,10 @@ function jobRow(job, open) {
 
 function setRow(set, remove) {
   return h("li", { class: "learned-set" }, h("span", { title: set.title }, h("b", { text: set.key }), h("span", { class: "quiet", text: ` ${[set.note, set.by, clockTime(set.made)].filter(Boolean).join(" · ")}` })),
-    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`, title: "Deletes the set. Undo restores the set. While the set is deleted, simulations that used it count as out of date", on: { click: () => remove(set) } }));
+    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`,
+      on: { click: () => remove(set) },
+      title: "Deletes this set of physics parameters. Undo restores the set. "
+        + "While the set is deleted, simulations that used this set count as out of date" }));
 }
 
 /**
@@ -140,7 +143,8 @@ export async function openLearning(page) {
   const keep = attempt(async ({ id }, name) => {
     const { key } = await changed(() => learningApi.keep(id, name));
     setsChanged();
-    toast(`The set “${key}” is kept. To use the set, choose it in Simulate under Physics.`);
+    toast(`The set “${key}” is saved. `
+      + "To use the set in simulations, choose the set in Simulate under Physics.");
   });
 
   const remove = attempt(async (set) => {

@@ -5,17 +5,17 @@ import { counted, fixed } from "../lib/format.js";
 import { toast } from "../lib/toasts.js";
 
 const LEAST_GAITS = 3;
-const TEST = "As a test, learning predicts each gait from the other gaits.";
-const WHERE = "Each trial must name the run or gait that the robot walked. "
-  + "Choose the run or gait when you add the trial.";
+const TEST = "To test the fitted values, learning predicts each gait from the trials of the other gaits.";
+const WHERE = "For each trial, the studio must know which gait or run the robot walked. "
+  + "Choose the gait or run when you add the trial.";
 
 const gaitOf = ({ gait_name: gait, name, expected_cm: wanted, iterations }) => `${gait || name}, ${fixed(wanted / iterations)} cm × ${iterations}`;
 
 /** Why nothing can be learned from a trial; null where it can. */
 function whyNot({ is_example: isExample, gait, run }) {
   if (isExample) return "This example was made by simulation. Learning uses only trials of a real robot.";
-  return gait || run ? null : "The studio does not know which waypoints were sent to the robot. "
-    + "Add the trial again and choose its run or gait.";
+  return gait || run ? null : "The studio does not know which waypoints were sent to the robot in this "
+    + "trial. Add the trial again, and choose its gait or run under “Compare with plan”.";
 }
 
 function trialLine(trial, changed) {
@@ -28,7 +28,7 @@ function trialLine(trial, changed) {
 /** What is missing, from the trials that there are and the gaits of those that are ticked; null where nothing is. */
 function missingText(trials, gaits) {
   if (gaits >= LEAST_GAITS) return null;
-  const ticked = gaits ? `The ticked trials show ${counted(gaits, "gait")}` : "No trial is ticked";
+  const ticked = gaits ? `You ticked trials of ${counted(gaits, "gait")}` : "No trial is ticked";
   const have = trials.some((trial) => !whyNot(trial)) ? ticked : "There is no trial to learn from yet";
   return `${have}. Learning needs at least ${LEAST_GAITS} gaits that differ in name or step length. `
     + `${TEST} ${WHERE}`;
@@ -49,7 +49,8 @@ export function trialChoice(trials, start) {
   function refresh() {
     const gaits = new Set(chosen().map(gaitOf)).size;
     const missing = missingText(trials, gaits);
-    setAllowed(press, missing, "Simulates every gait about forty times. "
+    setAllowed(press, missing, "Fits physics parameters to the ticked trials. For this, the studio "
+      + "simulates each gait of these trials about forty times. "
       + "You can continue to work during the simulations");
     setText(needs, missing ?? "");
     needs.hidden = !missing;

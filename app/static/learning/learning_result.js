@@ -6,20 +6,21 @@ import { captionedTable } from "../lib/tables.js";
 import { gridPlaces, gridStep } from "../trials/trial_plot.js";
 
 const UNKNOWN = "not identifiable";
-const FITTED = "Fitted values, with one standard deviation below and above. "
+const FITTED = "Each fitted value has a range of one standard deviation below and above. "
   + "A parameter that the trials cannot determine keeps its usual value";
-const ERRORS = "Mean absolute error over all gaits. “Left out” means that the predicted gait was not used "
-  + "for learning";
+const ERRORS = "Mean absolute error of the predictions over all gaits. “Left out” means that the predicted "
+  + "gait was not used for learning";
+const FALLS = "If the robot falls in the simulation of a gait, the whole distance of that gait counts as "
+  + "error. ";
 const figure = (value) => (value === 0 ? "0" : compact(value));
 const withUnit = (value, unit) => `${figure(value)} ${unit}`.trim();
 
 const table = (caption, title, head, rows) => captionedTable({ class: "run-table learned-table", title }, caption, head, rows);
 
 function parameterRow({ title, unit, default: usual, fitted, low, high, is_identifiable: isIdentifiable, effect, left }) {
-  const help = "Between its lowest and its highest value, this parameter changes the distance or angle of "
-    + "a gait by up to "
-    + `${fixed(effect)} standard deviations of one trial. `
-    + `After learning, ${fixed(left * 100, 0)} % of the parameter's uncertainty is left`;
+  const help = `Effect of this parameter over its whole range: up to ${fixed(effect)} standard deviations of `
+    + "one trial, in the distance or angle of a gait. "
+    + `Uncertainty after learning: ${fixed(left * 100, 0)} % of the uncertainty before`;
   return h("tr", { title: help }, h("th", { scope: "row", text: title }), h("td", { text: withUnit(usual, unit) }),
     isIdentifiable ? h("td", {}, h("b", { text: figure(fitted) }), h("span", { class: "quiet range", text: `${figure(low)} to ${figure(high)}` })) : h("td", { class: "quiet", text: UNKNOWN }));
 }
@@ -27,13 +28,14 @@ function parameterRow({ title, unit, default: usual, fitted, low, high, is_ident
 const parameterTable = ({ parameters }) => table("Parameters", FITTED, ["", "usual", "fitted"], parameters.map(parameterRow));
 
 const predictionTable = ({ foretold: predicted }) => table("Error of the predicted distance and angle", ERRORS, ["", "cm", "°"],
-  predicted.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `If the robot falls in a simulation, the whole distance of this gait counts as error. The mean angle uses only the other gaits (${angles})` } : {},
+  predicted.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr",
+    falls ? { title: `${FALLS}The mean error of the angle uses only the other gaits (${angles})` } : {},
     h("th", { scope: "row", text: falls ? `${title} (falls: ${falls}, angles: ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
 
 function gaitTable({ gaits, foretold: predicted }) {
   const distances = (name) => predicted.find((one) => one.name === name).distances_cm;
   const columns = [gaits.map((gait) => gait.distance_cm), distances("as planned"), distances("default"), distances("left out")];
-  return table("Gaits, cm", "Distance as in the published tables, from the largest excursions of "
+  return table("Gaits, cm", "Distance as in the published tables, from the largest displacements of "
     + "the feet", ["", "real", "plan", "usual", "left out"],
     gaits.map(({ name }, place) => h("tr", {}, h("th", { scope: "row", text: name }), ...columns.map((values) => h("td", { text: fixed(values[place]) })))));
 }
@@ -42,15 +44,23 @@ function gaitTable({ gaits, foretold: predicted }) {
 function cutNote({ gaits }) {
   const cut = gaits.filter((gait) => gait.cut_mm > 0).sort((a, b) => b.cut_mm - a.cut_mm);
   if (!cut.length) return null;
-  return h("p", { class: "quiet learned-cut", title: cut.map(({ name, cut_mm: most }) => `${name}: ${fixed(most)} mm`).join("\n"), text: `${cut.length} of ${gaits.length} gaits had strokes outside the motors’ range. The strokes were changed to fit, by at most ${fixed(cut[0].cut_mm)} mm (${cut[0].name}).` });
+  const [{ name: first, cut_mm: largest }] = cut;
+  return h("p", { class: "quiet learned-cut",
+    title: cut.map(({ name, cut_mm: most }) => `${name}: ${fixed(most)} mm`).join("\n"),
+    text: `${cut.length} of ${gaits.length} gaits had strokes outside the motors’ range. `
+      + "Learning limited these strokes to the range. "
+      + `The largest change is ${fixed(largest)} mm (${first}).` });
 }
 
 function keeping(job, keep) {
-  if (!job.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials cannot determine any parameter, so there is no set to keep. Add trials of other gaits, or more trials of each gait." });
+  if (!job.result.parameters.some((one) => one.is_identifiable)) {
+    return h("p", { class: "box-note", text: "These trials cannot determine any physics parameter, so there "
+      + "are no fitted values to keep. Add trials of other gaits, or more trials of each gait." });
+  }
   const name = h("input", { "aria-label": "Name of the set", placeholder: "Name, for example “lab floor”", maxlength: "80", required: true });
   return h("form", { class: "learned-keep", on: { submit: (event) => { event.preventDefault(); keep(job, name.value); } } }, name,
-    h("button", { class: "primary", text: "Keep as a set", title: "Keeps the fitted values under this "
-      + "name. Simulations use the values after you choose the set in Simulate under Physics" }));
+    h("button", { class: "primary", text: "Keep as a set", title: "Saves the fitted values as a set with "
+      + "this name. To use the set in simulations, choose the set in Simulate under Physics" }));
 }
 
 /**
@@ -110,5 +120,5 @@ function predictionPlot({ gaits, foretold: predicted }) {
       label((SIZE.left + SIZE.width) / 2, SIZE.height - 4, "measured, cm"),
       ...drawn.flatMap(({ prediction, mark }) => measured.map((value, place) => mark(toX(value), toY(prediction.distances_cm[place]))))),
     h("figcaption", { class: "quiet" }, h("span", { text: "Horizontal: measured distance, cm. Vertical: "
-      + "predicted distance, cm. On the line, both distances are equal." }), legend(predicted)));
+      + "predicted distance, cm. On the diagonal line, both distances are equal." }), legend(predicted)));
 }

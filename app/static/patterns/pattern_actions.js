@@ -11,14 +11,14 @@ import { announce, attempt, toast } from "../lib/toasts.js";
 
 const LABEL = "Complete the drawing";
 const NOTHING_NEW = "This pattern is the same as the drawing, so there is nothing to complete. "
-  + "Choose another of the best patterns, or free some cells.";
+  + "Choose another pattern under “Best patterns”, or free some of the fixed cells.";
 const BALANCE = RULES.find(({ rule }) => rule === "balance");
 /** Advice for a pattern without a motion: what the panel offers and is not done yet. */
 function adviceText(state) {
   const ways = [
     state.mode === "transition" && !state.walkable && "tick “Swings that the feet can do”",
     !ruleOf(state, BALANCE).on && "switch on the rule “Balance margin”",
-    "choose another of the best patterns",
+    "choose another pattern under “Best patterns”",
     "shorten the step",
   ].filter(Boolean);
   const words = `${ways.slice(0, -1).join(", ")} or ${ways.at(-1)}`;
@@ -31,7 +31,7 @@ const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${adv
 function usable({ result, running, chosen, waiting }) {
   if (running || waiting) return [null, "The pattern search is still running."];
   const pattern = result?.patterns[chosen] ?? null;
-  return [pattern, pattern ? null : "There is no pattern yet."];
+  return [pattern, pattern ? null : "The search has found no pattern."];
 }
 
 /** Why drawing a pattern would not change the open gait, or null if it would. */
@@ -68,7 +68,7 @@ export function patternActions(store, problem, { edits, playback, show }) {
     if (problem.state.mode === "drawing") {
       const { document } = await api.patternDocument(body());
       await edits.edit((now) => ({ ...now, timeline: { ...now.timeline, feet: document.timeline.feet }, ...(document.held ? { held: document.held } : {}) }), LABEL, { drawing: true, gait });
-      announce("The drawing is completed. Undo restores the old drawing.");
+      announce("The open gait now has this pattern. Undo restores the old drawing.");
       openView("cells");
       return;
     }
@@ -76,7 +76,7 @@ export function patternActions(store, problem, { edits, playback, show }) {
     await show(view.id);
     openView("cells");
     document.querySelector('#gaits [aria-current="true"]')?.scrollIntoView({ block: "nearest" });
-    toast(`The gait “${view.name}” is made and open.${adviceFor(view.plan, problem.state)}`, { of: "studio" });
+    toast(`The new gait “${view.name}” is open.${adviceFor(view.plan, problem.state)}`, { of: "studio" });
   });
 
   const toggleWalk = attempt(async () => {
@@ -90,8 +90,9 @@ export function patternActions(store, problem, { edits, playback, show }) {
     const plan = await api.patternPlan(body());
     if (isOld() || store.state.selected !== selected) return;
     if (!plan.times.length) throw new Error(plan.refusal?.sentence ?? "No motion was found for this pattern.");
-    store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note: `You see the pattern, not the open gait. ${plan.note}` } } });
-    if (plan.live?.status === "infeasible") toast(`The shown motion does not keep all limits. `
+    const note = `The 3D view shows the pattern, not the open gait. ${plan.note}`;
+    store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note } } });
+    if (plan.live?.status === "infeasible") toast("The motion in 3D breaks at least one limit. "
       + `${adviceText(problem.state)}`);
     playback.toStart();
     playback.play();

@@ -5,13 +5,14 @@ import { drawnCells, withCells } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const REFUSALS = {
-  end: "You cannot draw in the first and last column. In a transition, move the cursor of gait A or B to "
-    + "change these columns.",
+  end: "You cannot draw in the first or last column. "
+    + "To change these columns in a transition, move the cursor of gait A or B.",
   limb: "This limb is locked. To unlock the limb, click its name.",
-  given: "This cell is fixed in the drawing of the open gait. Unlock the cell on the timeline.",
+  given: "This cell is locked in the open gait, or it is a painted swing. "
+    + "Unlock the cell in the tab Cells, or untick “Keep the painted swings”.",
 };
 
-const DRAWN = "You drew this cell. Click to free the cell.";
+const DRAWN = "You drew this cell. Click the cell to let the search choose its value again.";
 const FREE = "Click: change between swing and stance. Shift+click: fix the present value of the cell. "
   + "Drag: change several cells.";
 

@@ -2,7 +2,7 @@
 
 import { h, setAllowed, setAttribute, setText } from "../lib/dom.js";
 import { shownDocument } from "../state/store.js";
-import { limbsOf, ROLES } from "./pattern_problem.js";
+import { LIMB_GIVEN, limbsOf, ROLES } from "./pattern_problem.js";
 
 const MODES = {
   transition: ["Transition", "Searches for a transition from one gait to another gait"],
@@ -10,10 +10,11 @@ const MODES = {
   drawing: ["Complete", "Keeps the locked cells of the open gait and searches for the other cells"],
 };
 const TEACH = {
-  transition: "Choose two gaits below, and move the cursor in each gait. "
+  transition: "Choose gait A and gait B below. "
+    + "Move the cursor in each gait to the sample where the transition starts or ends. "
     + "Click cells to draw swing or stance. The search finds the other cells.",
   limbs: "Choose the limbs that do not walk. The search finds a repeating pattern for the other limbs.",
-  drawing: "The locked cells of the open gait stay, and so do its first and last sample. "
+  drawing: "The search keeps the locked cells of the open gait, its first sample and its last sample. "
     + "The search finds the other cells.",
 };
 const [LEAST, MOST] = [2, 240];
@@ -56,11 +57,11 @@ export function patternFields(store, problem, lock) {
     + "The transition gets as few samples as the rules allow", (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
   const walkable = check("Swings that the feet can do", "Makes every swing long enough for the steps of "
     + "both gaits, also swings at the start and end of the transition. "
-    + "This rule is not in the footfall thesis", (on) => problem.set({ walkable: on }));
+    + "The footfall thesis has no such rule", (on) => problem.set({ walkable: on }));
   const keep = check("Keep my drawing if possible", "The search prefers patterns that are similar to the "
     + "shown pattern", (on) => problem.set({ keep: on }));
-  const painted = check("Keep the painted swings", "The search changes no painted swing and no "
-    + "locked cell", (on) => problem.set({ painted: on }));
+  const painted = check("Keep the painted swings", "The search keeps all swings and all locked "
+    + "cells of the open gait", (on) => problem.set({ painted: on }));
   const [limbs, locks] = [limbChoices(problem, about), limbLocks(problem, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null })];
   const locking = h("div", { class: "pattern-locking" }, h("span", { class: "quiet", text: "Locked limbs" }), locks.element);
   const teach = h("p", { class: "teach" });
@@ -142,9 +143,9 @@ function limbLocks(problem, { refusal, lock }) {
       buttons.forEach((button, foot) => {
         const isGiven = given(foot);
         setAttribute(button, "aria-pressed", String(isGiven || problem.state.locked.includes(foot)));
-        setAllowed(button, isGiven ? "This limb keeps one state in both gaits, and therefore also in the "
-          + "transition." : refusal(foot), "Locks this limb. A locked limb keeps one state during the "
-          + "whole transition, and does not count as a walking limb");
+        setAllowed(button, isGiven ? LIMB_GIVEN : refusal(foot), "Locks this limb. "
+          + "A locked limb stays in swing or in stance during the whole transition. "
+          + "It does not count as a walking limb");
       });
     },
   };

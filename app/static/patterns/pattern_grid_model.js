@@ -20,7 +20,7 @@ function ofTransition(store, problem) {
   const isLocked = (foot) => given(first, second, foot) || (locked.includes(foot) && ends(foot)[0] === ends(foot)[1]);
   return {
     legs: first.timeline.feet.length, samples: count, isLocked, limbHelp: "Click to lock or unlock this "
-      + "limb. A locked limb keeps one state during the whole transition",
+      + "limb. A locked limb stays in swing or in stance during the whole transition",
     given: (foot) => given(first, second, foot),
     lockRefusal: (foot) => (ends(foot)[0] === ends(foot)[1] ? null : "This limb cannot be locked, because "
       + "it stands at one end of the transition and swings at the other end. "

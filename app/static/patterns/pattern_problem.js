@@ -7,27 +7,47 @@ const KEY = "patterns";
 
 /** The rules in plain words, with the thesis's own number; `scale` from what a person types to SI. */
 export const RULES = [
-  { rule: "shortest_swing", name: "Shortest swing", unit: "samples", usual: 2, help: "Rule g2 of the "
-    + "footfall thesis. Swings that begin before the transition or end after it may be shorter" },
-  { rule: "shortest_stance", name: "Shortest stance", unit: "samples", usual: 3, help: "Rules g9 and g10 of the footfall thesis. Applies to stances between two swings" },
-  { rule: "feet_down", name: "Feet down, at least", unit: "feet", usual: 3, help: "Rule g3 of the footfall "
-    + "thesis. Applies to every sample" },
-  { rule: "feet_down_each_side", name: "Feet down on each side", unit: "feet", usual: 1, help: "Rules g4 and g5 of the footfall thesis. The sides are left and right of the walking direction. A foot on the centre line counts for both sides" },
-  { rule: "workload", name: "Workloads differ by", unit: "samples", usual: 2, help: "Rules g6 and g7 of "
-    + "the footfall thesis. Largest allowed difference between the numbers of stance samples of two "
-    + "walking limbs" },
-  { rule: "limb_changes", name: "Changes per limb, at most", unit: "times", usual: 2, help: "Rule g8 of the footfall thesis. A change goes from stance to swing, or from swing to stance" },
-  { rule: "least_swing", name: "Swing per limb, at least", unit: "samples", usual: 2, help: "Rule g11 of the footfall thesis. Least number of samples in which each walking limb swings" },
-  { rule: "balance", name: "Balance margin", unit: "mm", usual: null, first: 0, scale: 0.001, help: "Not in the thesis. At every sample, the body has a place that is at least this far inside the support polygon. The body can move from each place to the next without exceeding its largest speed" },
+  { rule: "shortest_swing", name: "Shortest swing", unit: "samples", usual: 2,
+    help: "Every swing lasts at least this many samples. A swing that begins before the transition or ends "
+      + "after the transition may be shorter. Rule g2 of the footfall thesis" },
+  { rule: "shortest_stance", name: "Shortest stance", unit: "samples", usual: 3,
+    help: "Every stance between two swings lasts at least this many samples. "
+      + "Rules g9 and g10 of the footfall thesis" },
+  { rule: "feet_down", name: "Feet down, at least", unit: "feet", usual: 3,
+    help: "At every sample, at least this many feet are on the ground. Rule g3 of the footfall thesis" },
+  { rule: "feet_down_each_side", name: "Feet down on each side", unit: "feet", usual: 1,
+    help: "At every sample, at least this many feet are on the ground on each side (left and right of the "
+      + "walking direction). A foot on the centre line counts for both sides. "
+      + "Rules g4 and g5 of the footfall thesis" },
+  { rule: "workload", name: "Workloads differ by", unit: "samples", usual: 2,
+    help: "Largest allowed difference between the numbers of stance samples of two walking limbs. "
+      + "Rules g6 and g7 of the footfall thesis" },
+  { rule: "limb_changes", name: "Changes per limb, at most", unit: "times", usual: 2,
+    help: "Each limb changes between stance and swing at most this many times. "
+      + "Rule g8 of the footfall thesis" },
+  { rule: "least_swing", name: "Swing per limb, at least", unit: "samples", usual: 2,
+    help: "Each walking limb swings in at least this many samples. Rule g11 of the footfall thesis" },
+  { rule: "balance", name: "Balance margin", unit: "mm", usual: null, first: 0, scale: 0.001,
+    help: "At every sample, the body can be at least this far inside the support polygon. "
+      + "The body can move from sample to sample without exceeding its largest speed. "
+      + "The footfall thesis has no such rule" },
 ];
+
+/** Why a limb that stands, or swings, at every sample of both gaits cannot be locked or unlocked. */
+export const LIMB_GIVEN = "This limb has the same state at every sample of both gaits. "
+  + "Therefore it is always locked in the transition.";
 
 /** What a change costs; the pattern of the smallest sum is best. */
 export const WEIGHTS = [
-  { weight: "sample_changes", name: "A moment at which any limb changes", usual: 1000, help: "Objective of the footfall thesis" },
-  { weight: "limb_changes", name: "A change of one limb", usual: 1, help: "With the usual number 1, "
-    + "fewer changes of single limbs matter only between patterns that are otherwise equal" },
-  { weight: "drawing", name: "A cell that differs from my drawing", usual: 10, help: "Counts in Complete, "
-    + "and while “Keep my drawing if possible” is on" },
+  { weight: "sample_changes", name: "A moment at which any limb changes", usual: 1000,
+    help: "Cost of each moment at which any limb changes between swing and stance. "
+      + "The footfall thesis minimises the number of these moments" },
+  { weight: "limb_changes", name: "A change of one limb", usual: 1,
+    help: "Cost of each change of a single limb. "
+      + "With the usual number 1, this cost matters only between patterns that are otherwise equal" },
+  { weight: "drawing", name: "A cell that differs from my drawing", usual: 10,
+    help: "Cost of each cell that differs from your drawing. "
+      + "This cost counts in Complete, and while “Keep my drawing if possible” is on" },
 ];
 
 export const ROLES = { walks: "walks", held: "held up", broken: "broken", stands: "stands" };

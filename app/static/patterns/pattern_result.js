@@ -7,7 +7,7 @@ import { relaxed, ruleOf, RULES } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const TEXTS = {
-  optimal: ["Optimal", "good", "No better pattern keeps the rules"],
+  optimal: ["Optimal", "good", "This pattern keeps all rules. No better pattern exists"],
   feasible: ["Feasible", "caution", "This pattern keeps the rules. A better pattern may exist"],
   infeasible: ["Infeasible", "caution", "No pattern keeps all rules"],
   cancelled: ["Cancelled", "quiet", "The search was cancelled before it found a pattern"],
@@ -48,8 +48,8 @@ function longerSwings(state, explanation) {
   const needed = Math.max(...explanation.map((text) => Number(/swings? .*?at least (\d+) samples/.exec(text)?.[1] ?? 0)));
   const required = ruleOf(state, RULES.find(({ rule }) => rule === "least_swing")).value;
   return state.mode === "transition" && state.walkable && needed > required
-    ? [h("p", { class: "quiet", text: `The rule asks for swings of ${required} samples. `
-      + `“Swings that the feet can do” asks for ${needed} samples, because of the steps of `
+    ? [h("p", { class: "quiet", text: `The rule “Swing per limb, at least” requires ${required} samples. `
+      + `“Swings that the feet can do” requires at least ${needed} samples, because of the step lengths of `
       + `these gaits.` })] : [];
 }
 

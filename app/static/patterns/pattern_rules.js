@@ -30,7 +30,9 @@ function ruleRow(problem, one) {
   };
   const box = h("input", { type: "checkbox", role: "switch", "aria-label": `${one.name}: on`, title: one.help, on: { change: () => change({ on: box.checked }) } });
   const input = numberInput(`${one.name}, ${one.unit}`, one.help, (value) => change({ value }));
-  const usual = h("span", { class: "quiet pattern-usual", title: one.usual === null ? "The footfall thesis (F) has no such rule" : `The footfall thesis (F): ${one.usual} ${one.unit}` });
+  const usual = h("span", { class: "quiet pattern-usual", title: one.usual === null
+    ? "The footfall thesis (F) has no such rule"
+    : `Number in the footfall thesis (F): ${one.usual} ${one.unit}` });
   const element = h("li", { class: "pattern-rule" }, h("label", { title: one.help }, box, h("span", { text: one.name })), h("span", { class: "box", data: { unit: one.unit } }, input), usual);
   return {
     element,

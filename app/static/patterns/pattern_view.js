@@ -10,7 +10,7 @@ import { patternGaitStrip } from "./pattern_gait_strip.js";
 import { mountPatternGaits, timelineOf, transitionGaits } from "./pattern_gaits.js";
 import { patternGrid } from "./pattern_grid.js";
 import { patternGridModel } from "./pattern_grid_model.js";
-import { createProblem, drawnCells, limbsOf, withCells } from "./pattern_problem.js";
+import { createProblem, drawnCells, LIMB_GIVEN, limbsOf, withCells } from "./pattern_problem.js";
 import { patternResult } from "./pattern_result.js";
 import { patternRules } from "./pattern_rules.js";
 import { mountSearch, shownRows } from "./pattern_search.js";
@@ -60,8 +60,7 @@ function limbLocking(store, problem, shown) {
   const lock = (foot) => {
     const now = shown();
     const { locked } = problem.state;
-    const refusal = now?.given(foot) ? "This limb keeps one state in both gaits, and therefore also in the "
-      + "transition." : now?.lockRefusal(foot);
+    const refusal = now?.given(foot) ? LIMB_GIVEN : now?.lockRefusal(foot);
     if (locked.includes(foot)) problem.set({ locked: locked.filter((one) => one !== foot) });
     else if (refusal) toast(refusal);
     else problem.set({ locked: [...locked, foot] });
@@ -80,7 +79,9 @@ function shareAxis(lanes, seconds) {
 function lowerPart(store, problem, lock) {
   const [parts, grid] = [gaitParts(store, problem), patternGrid(problem, { lockLimb: lock })];
   const [title, note] = [h("b"), h("span", { class: "quiet pattern-state" })];
-  const clear = h("button", { class: "link", text: "Free drawn cells", title: "Frees all cells that you drew here", on: { click: () => problem.set({ ...withCells(problem.state, {}), freed: {} }) } });
+  const clear = h("button", { class: "link", text: "Free drawn cells",
+    title: "Frees all cells that you drew here, so that the search chooses their values again",
+    on: { click: () => problem.set({ ...withCells(problem.state, {}), freed: {} }) } });
   const [above, below] = [bridge("from"), bridge("to")];
   const empty = h("p", { class: "teach", hidden: true });
   const sought = h("div", { class: "pattern-lane pattern-sought" }, h("div", { class: "pattern-head" }, title, note, clear), grid.element, empty);
@@ -135,7 +136,9 @@ export async function mountPatterns(store, page) {
   const fields = patternFields(store, problem, lock);
   const actions = patternActions(store, problem, page);
   const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
-    h("header", { class: "inspector-head" }, h("h2", { text: "Pattern search" }), h("p", { class: "quiet", text: "Finds which feet stand at each sample. To close this panel, open Cells." })),
+    h("header", { class: "inspector-head" }, h("h2", { text: "Pattern search" }),
+      h("p", { class: "quiet", text: "The search finds which feet stand at each sample. "
+        + "To close this panel, open the tab Cells." })),
     h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(problem, search, (hovered) => problem.set({ hovered })), ...patternRules(problem)), actions.element);
   const inspector = byId("inspector");
   const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) => inspector.querySelector(`:scope > ${part}`));

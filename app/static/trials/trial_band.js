@@ -35,7 +35,8 @@ function bandFromAbove(band) {
   const text = band.feet.map(({ end_spread_cm: spread }, foot) => `foot ${foot + 1} ends ± ${fixed(spread, 2)} cm`).join("; ");
   return h("figure", { class: "trial-plot" },
     svg("svg", { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Trials from above: ${text}` }, ...lines, ...drawn),
-    h("figcaption", { class: "quiet" }, `Feet seen from above, in the robot's frame. Grid: ${step} cm. The pale area shows the spread of the trials.`, legend(kindsOf(band), TEXTS)));
+    h("figcaption", { class: "quiet" }, `Feet seen from above, in the robot's frame. Grid: ${step} cm. `
+      + "The pale area covers all trials in this plot.", legend(kindsOf(band), TEXTS)));
 }
 
 /** The displacement of the feet over the iterations. */
@@ -51,7 +52,9 @@ function bandOverIterations({ feet, iterations, ...band }) {
     svg("polygon", { class: "spread", "data-foot": foot + 1, points: `${points(xs, way.low.map(toY))} ${points([...xs].reverse(), way.high.map(toY).reverse())}` }),
     ...(way.plan ? [line("plan", foot, way.plan)] : []), ...way.trials.map((one) => line("trial", foot, one)), line("mean", foot, way.mean),
   ]));
-  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, `Distance of each foot along the ${band.has_plan ? "wanted" : "mean"} direction`, legend(kindsOf(band), TEXTS)));
+  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" },
+    `Distance of each foot along the ${band.has_plan ? "planned" : "mean"} direction`,
+    legend(kindsOf(band), TEXTS)));
 }
 
 const HELP = "Mean: distance of the foot, averaged over the trials. Spread: distance of the end points from their mean "

@@ -19,8 +19,8 @@ export const comparisonApi = {
 };
 
 const HELP = "Time, and mean movement of the feet, from the first to the last frame. "
-  + "The angle is the direction of the movement on the platform where the robot walks, measured from its x axis. "
-  + "The last column is the mean distance of the feet from the tracked feet, at the same phase of each iteration";
+  + "Angle: direction of the movement, measured from the x axis of the platform where the robot walks. "
+  + "Last column: mean distance of the feet from the tracked feet at the same phase of each iteration";
 
 function figures({ rows }) {
   const cells = (row) => [fixed(row.seconds, 1), fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];
@@ -32,7 +32,7 @@ function figures({ rows }) {
 const TEXTS = {
   absent: () => "The simulation of the sent waypoints is being requested.",
   running: ({ share }) => (share > 0 ? `The simulation is running: ${fixed(share * 100, 0)} %.` : "The simulation is waiting or starting."),
-  failed: ({ sentence }) => `The feet could not be simulated. ${sentence} `,
+  failed: ({ sentence }) => `The simulation of this trial failed. ${sentence} `,
   none: ({ sentence }) => sentence,
   done: ({ remark }) => remark ?? "",
 };

@@ -15,6 +15,12 @@ import { followTrial } from "./trial_sync.js";
 const published = ({ distance, angle_deg: angle, error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
 const net = ({ net_distance: distance, net_angle_deg: angle, net_error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
 
+const ANGLE_HELP = "Angle: direction of the movement, measured from the x axis of the platform where the "
+  + "robot walks";
+const PUBLISHED_HELP = "Distance as in the published tables, from the largest displacements of a foot along "
+  + `x and y. This distance is never negative. ${ANGLE_HELP}`;
+const NET_HELP = `Movement of each foot from the first to the last frame. ${ANGLE_HELP}`;
+
 function movementTable(caption, help, figures, plan, columns) {
   const rows = figures.feet.map((foot, index) => [footName(index), ...columns(foot)]);
   rows.push([{ text: "mean" }, ...columns(figures)]);
@@ -28,7 +34,8 @@ function iterationTable({ parts }) {
 }
 
 function slipTable({ slip }) {
-  return figureTable("Slip of standing feet, cm", "How far each foot slid on the ground between two of its steps", ["", "largest", "mean"],
+  const help = "Distance that each foot slid on the ground while it stood between two steps";
+  return figureTable("Slip of standing feet, cm", help, ["", "largest", "mean"],
     slip.map((slides, index) => [footName(index), fixed(Math.max(...slides), 2), fixed(slides.reduce((sum, value) => sum + value, 0) / slides.length, 2)]));
 }
 
@@ -36,7 +43,10 @@ function facts(trial) {
   const rows = [
     ["By", trial.by || "–"], ["Added", clockTime(trial.made)], ["Gait", trial.gait_name || "–"], ["Wanted", `${fixed(trial.expected_cm, 1)} cm`],
     ["Frames", `${trial.frames}, ${fixed(trial.frame_rate, 1)} a second`], ["Gaps", trial.filled ? `${trial.gaps.length} (${counted(trial.filled, "missing position")} filled in)` : "none"],
-    ...(trial.plan ? [["Placement", `${fixed(trial.plan.turn_deg, 1)}°, feet ± ${fixed(Math.max(...trial.plan.gaps_cm) * 10, 1)} mm`, "The plan is turned by this angle to fit the feet in the first frame. The second value is the largest distance that remains at a foot"]] : []),
+    ...(trial.plan ? [["Placement",
+      `${fixed(trial.plan.turn_deg, 1)}°, feet ± ${fixed(Math.max(...trial.plan.gaps_cm) * 10, 1)} mm`,
+      "The studio turned the plan by this angle to fit the feet in the first frame. "
+      + "The second value is the largest remaining distance between a foot and the plan"]] : []),
   ];
   return h("dl", { class: "summary" }, ...rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { text: value, title: help ?? null })]));
 }
@@ -54,7 +64,8 @@ function endsLine(trial, change) {
 
 /** That no robot did it, where it is an example. */
 const exampleLine = ({ is_example: isExample }) => isExample
-  && h("p", { class: "why" }, exampleMark(), " This trial was simulated. The studio does not use simulated trials to compare gaits or to learn.");
+  && h("p", { class: "why" }, exampleMark(), " This trial was simulated. "
+    + "The studio does not use simulated trials to compare gaits or to learn physics parameters.");
 
 /** That a trial is deleted, with a way back; nothing else can be done to it. */
 function deletedLine({ id, deleted }) {
@@ -112,8 +123,8 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })), exampleLine(now), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
     tail.replaceChildren(...[endsLine(now, (changes) => sync.change(changes)), comparison.element, iterationTable(now),
-      movementTable("Movement as published", "Distance as the publication defines it, from the largest displacements along x and y. This distance is never negative. The angle is the direction of the movement on the platform where the robot walks, measured from its x axis", now.figures, now.plan, published),
-      movementTable("Movement from first to last frame", "Movement of each foot from the first to the last frame. The angle is the direction of this movement on the platform where the robot walks, measured from its x axis", now.figures, now.plan, net),
+      movementTable("Movement as published", PUBLISHED_HELP, now.figures, now.plan, published),
+      movementTable("Movement from first to last frame", NET_HELP, now.figures, now.plan, net),
       slipTable(now), filesLine(now, remove)].filter(Boolean));
     drawPlots();
     attempt(comparison.refresh)();
@@ -132,7 +143,9 @@ const stretches = (count, what) => (count ? `${what}${count === 1 ? "" : `, ${co
 /** How often a foot was out of sight, and how often something else was taken for it. */
 function sights({ unseen, false: wrong }) {
   const words = [stretches(unseen.length, "The camera did not see a foot"), stretches(wrong.length, "The studio mistook something else for a foot")].filter(Boolean);
-  return words.length ? `${words.join(" ")} The gaps are marked and filled with straight lines.` : null;
+  return words.length
+    ? `${words.join(" ")} The studio marks these gaps in the track and fills them with straight lines.`
+    : null;
 }
 
 /**

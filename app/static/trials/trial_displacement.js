@@ -110,6 +110,9 @@ export function displacementPlot(sources, trial, moved) {
   drawing.append(
     ...drawn.flatMap(({ kind, displacements, frames }) => displacements.map((way, index) => svg("polyline", { class: `way-${kind}`, "data-foot": index + 1, points: points(frames.map((frame) => toX(clock.timeOf(frame))), way.map(toY)) }))),
     ...ends.slice(0, -1).map((end, part) => handle({ part, end, frames: trial.frames, rate: trial.frame_rate, clock, toX, fromX, top: FRAME.top, bottom: FRAME.height - FRAME.bottom, moved })));
-  const help = ends.length > 1 ? "Distance of each foot, along the direction in which the trial went. To move the end of an iteration, drag its mark or press the arrow keys." : "Distance of each foot, along the direction in which the trial went";
+  const along = "Distance of each foot along the mean direction of the tracked feet";
+  const help = ends.length > 1
+    ? `${along}. To move the end of an iteration, drag its mark, or click the mark and press the arrow `
+      + "keys." : along;
   return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, help, kinds.length > 1 && legend([...kinds].reverse())));
 }

@@ -31,7 +31,8 @@ function wantedCm(view) {
 export function walkFields(store, kept = {}) {
   const { view } = store.state;
   const expected = number("Wanted distance, cm", "Distance that the robot should walk, over all iterations together", kept.expected_cm ?? wantedCm(view) ?? "");
-  const iterations = number("Iterations", "How many times the gait is repeated in the track", kept.iterations ?? view?.document?.iterations ?? 3, { step: "1", min: "1", max: "50" });
+  const iterations = number("Iterations", "Number of iterations of the gait in each track",
+    kept.iterations ?? view?.document?.iterations ?? 3, { step: "1", min: "1", max: "50" });
   let isTyped = expected.input.value === "" || kept.expected_cm !== undefined;
   expected.input.addEventListener("input", () => { isTyped = true; });
   iterations.input.addEventListener("input", () => {
@@ -96,7 +97,10 @@ export function trialForm({ store, all, done }) {
   const [expected, iterations, over] = walk.labels;
   return h("form", { class: "trial-form", on: { submit: keep } },
     h("button", { type: "button", class: "link", text: "All trials", on: { click: all } }),
-    h("p", { class: "quiet", text: "Choose CSV files with foot tracks. The columns are X_D1, Y_D1, X_D2, …, with one row for each frame. Where a foot was not seen, the cells are empty (tracks in centimetres) or 0 (tracks in pixels)." }),
+    h("p", { class: "quiet", text: "Choose CSV files with foot tracks. "
+      + "The columns are X_D1, Y_D1, X_D2, …, with one row for each frame. "
+      + "If a foot was not seen in a frame, its cells are empty (tracks in centimetres) or 0 (tracks in "
+      + "pixels)." }),
     h("label", {}, h("span", { text: "Files" }), files), expected, iterations, rate.label, over,
     h("details", {}, h("summary", { text: "The files are in pixels" }), perCm.label, x.label, y.label),
     h("button", { class: "primary", text: "Add trials" }));

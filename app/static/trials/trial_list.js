@@ -8,7 +8,8 @@ import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
 
 const COLUMNS = [
-  { key: "gait_name", text: "gait", help: "Gait, and its step length per iteration in cm. Without a plan, the wanted step length is shown" },
+  { key: "gait_name", text: "gait", help: "Gait, and its step length per iteration in cm. "
+    + "For trials without a plan, this is the wanted step length" },
   { key: "distance", text: "cm", help: "Distance as the published tables define it. Mean over the trials" },
   { key: "error_percent", text: "error %", help: "Deviation from the wanted distance, in %" },
   { key: "angle_deg", text: "angle °", help: "Direction of the movement on the platform, in degrees" },
@@ -78,7 +79,7 @@ function emptyPart(open) {
   const button = h("button", { text: "Look at an example" });
   const words = h("p", { class: "quiet", role: "status", "aria-label": "Example" });
   const allow = (busy) => {
-    setAllowed(button, busy, "Simulates a walk of the library and saves the result as a trial. "
+    setAllowed(button, busy, "Simulates a gait of the gait library and saves the result as a trial. "
       + "The trial is marked as an example");
     setText(words, busy ?? "The simulation takes a few seconds. You can delete the example like any trial. "
       + "The example is not used to compare gaits.");
@@ -86,7 +87,7 @@ function emptyPart(open) {
   const make = attempt(async () => {
     // The list is drawn anew when the trial is there: only where the person has left it the example is not opened.
     const list = button.closest(".trial-part");
-    allow("A walk of the library is being simulated…");
+    allow("The studio is simulating a gait of the gait library…");
     try {
       const { id } = await trialApi.example();
       if (list?.isConnected) open(id);
@@ -113,7 +114,8 @@ function trialRow(trial, open) {
 /** A kept trial that has no figures: why, and a way to be rid of it. */
 function unreadableRow({ id, name, sentence }) {
   const away = h("button", { type: "button", class: "link", text: "Delete", "aria-label": `Delete ${name}`, on: { click: attempt(() => trialApi.remove(id)) } });
-  return h("li", { class: "why", data: { toneText: "caution" } }, `“${name}” cannot be shown. ${sentence} `, away);
+  return h("li", { class: "why", data: { toneText: "caution" } },
+    `The trial “${name}” cannot be shown. ${sentence} `, away);
 }
 
 function listParts({ trials, compared, unreadable }, { open, band }) {
@@ -153,7 +155,8 @@ export async function trialList({ store, open, add, band, videos, cameras, learn
   const element = h("div", { class: "run-all" },
     h("div", { class: "trial-ways" }, h("button", { class: "primary", text: "Add trials…", on: { click: add } }),
       h("button", { text: "From a video…", title: "Tracks the feet in a video of the robot, taken from under the glass platform", on: { click: videos } }),
-      h("button", { class: "link", text: "Cameras", title: "Lists the cameras of the studio. Here you see live pictures, set up cameras and record runs", on: { click: cameras } }),
+      h("button", { class: "link", text: "Cameras", on: { click: cameras },
+        title: "Opens the list of cameras, where you see live pictures, set up cameras and record runs" }),
       h("button", { class: "link", text: "Learn from trials", title: "Fits unknown physics parameters, such as floor friction, to the measured walks of the robot", on: { click: learn } })),
     body);
   return { element, leave() { begin(); forget(); } };

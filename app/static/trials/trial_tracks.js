@@ -10,10 +10,13 @@ const LAYER = "trial-tracks";
 /** How the robots stood, and what the rings are. */
 function words(tracks) {
   const [{ turn_deg: turn, gaps_mm: gaps }] = tracks;
-  const stood = tracks.length > 1 ? `The ${tracks.length} tracks are rotated, so that all of them have the same heading in the first frame.`
-    : `The track is rotated back by ${fixed(turn, 1)}°, the heading of the robot in the first frame. `
-      + `The feet of the first frame fit within ${fixed(Math.max(...gaps), 1)} mm.`;
-  return `${stood} Rings show the feet at the playhead. Where a line is grey, the foot was not seen.`;
+  const stood = tracks.length > 1
+    ? `The studio rotates the ${tracks.length} tracks, so that the robot has the same heading in the first `
+      + "frame of each track."
+    : `The studio rotates the track back by ${fixed(turn, 1)}°, the heading of the robot in the first frame. `
+      + `Then each foot of the first frame is within ${fixed(Math.max(...gaps), 1)} mm of its expected `
+      + "position.";
+  return `${stood} Rings show the feet at the playhead. A grey line means that the foot was not seen.`;
 }
 
 /**

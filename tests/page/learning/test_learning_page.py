@@ -47,7 +47,7 @@ def test_a_course_runs_in_the_background_and_can_be_cancelled(
         panel.get_by_role("checkbox", name=GAITS[2]).uncheck()
         learn = panel.get_by_role("button", name="Learn", exact=True)
         expect(learn).to_have_attribute("aria-disabled", "true")
-        why = re.compile("^The ticked trials show 2 gaits. Learning needs at least 3 gaits")
+        why = re.compile("^You ticked trials of 2 gaits. Learning needs at least 3 gaits")
         expect(learn).to_have_attribute("title", why)
         expect(panel.get_by_role("status", name="What Learn needs")).to_have_text(why)
         expect(panel.get_by_text("The studio does not know which waypoints were sent")).to_be_visible()
@@ -104,7 +104,7 @@ def test_what_was_learned_is_kept_chosen_in_simulate_deleted_and_brought_back(
         ways = panel.get_by_role("table", name="Error of the predicted distance and angle")
         expect(ways.get_by_role("row", name="Physics, gait left out")).to_be_visible()
         cut = "1 of 3 gaits had strokes outside the motors’ range. "
-        cut += "The strokes were changed to fit, by at most 4.2 mm (Walk, 3 cm)."
+        cut += "Learning limited these strokes to the range. The largest change is 4.2 mm (Walk, 3 cm)."
         expect(panel.get_by_text(cut)).to_be_visible()
         panel.get_by_label("Name of the set").fill("Lab floor")
         look(page, "learning-result")

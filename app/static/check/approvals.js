@@ -25,7 +25,8 @@ function item(record, compare) {
     h("span", { class: "approval-head" }, h("b", { text: by }), h("span", { class: "quiet", text: clockTime(when), title: when }), state),
     h("span", { class: "quiet", text: figuresText(record), title: warnings.join("\n") || null }),
     h("span", { class: "where" }, h("span", { class: "mono", text: shortHash(waypoints), title: waypoints }),
-      h("button", { class: "link", text: "compare", "aria-label": `Compare the approval by ${by}, ${clockTime(when)}`, on: { click: () => compare(record) } })));
+      h("button", { class: "link", text: "compare", on: { click: () => compare(record) },
+        "aria-label": `Compare the approval by ${by}, ${clockTime(when)}, with ${NOW}` })));
 }
 
 /** Builds the part; it is empty while the gait has never been approved. */

@@ -19,10 +19,13 @@ function findingItem(finding, goTo) {
       finding.sample !== null && h("button", { class: "link", text: "go to", "aria-label": `Go to ${place}`, on: { click: () => goTo(finding) } })));
 }
 
+const MARGIN_HELP = "Smallest distance to the limit of this rule during the whole motion. "
+  + "Below 0, the motion exceeds the limit";
+
 function marginList(margins) {
   const rows = margins.flatMap(({ rule, margin, unit }) => {
     const shown = readable(margin, unit);
-    return [h("dt", { text: ruleName(rule), title: "Smallest distance to this rule's limit in the plan" }),
+    return [h("dt", { text: ruleName(rule), title: MARGIN_HELP }),
       h("dd", { text: shown.value, data: margin < 0 ? { broken: "" } : {} }), h("dd", { class: "unit", text: shown.unit })];
   });
   return [h("h3", { text: "Distance to the limits" }), h("dl", { class: "margins" }, ...rows)];
@@ -34,7 +37,8 @@ function summary(view, before) {
   const { verdict } = view;
   if (!verdict) {
     const text = view.revoked ? `${view.revoked} Check the gait again.` : before?.word === "approved" ? "The gait changed, so it is no longer approved. Check the gait again."
-      : before ? `${capital(checkGone(view, before))}. Check the gait again.` : "Check tests every rule on the waypoints that would be sent to the robot.";
+      : before ? `${capital(checkGone(view, before))}. Check the gait again.`
+        : "Press Check to test every rule on the waypoints that would be sent to the robot.";
     return h("p", { class: before || view.revoked ? "box-note" : "why", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
   }
   const warnings = warningsOf(verdict).length;
@@ -61,14 +65,16 @@ function whyNotCheck({ view, pending }) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The studio is still saving your last edit.";
   if (view.plan?.live?.status === "infeasible") return "There is no motion to check. The Design step shows what is wrong and suggests changes.";
-  if (!view.plan || view.plan.refusal) return view.plan?.refusal?.sentence ?? "There is no plan to check. Optimise first.";
+  if (!view.plan || view.plan.refusal) {
+    return view.plan?.refusal?.sentence ?? "There is no plan to check. Press Optimise first.";
+  }
   return null;
 }
 
 function whyNotApprove({ view, pending, seenWarnings }) {
-  if (!view?.verdict || pending.length) return "Check this version first.";
+  if (!view?.verdict || pending.length) return "Check this version of the gait first.";
   if (!view.verdict.passed) return "The check failed. Errors block approval.";
-  if (view.approval) return `Already approved by ${view.approval.by}.`;
+  if (view.approval) return `${view.approval.by} has already approved this gait.`;
   if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash) return "There are warnings. Read each warning, then tick “I have seen …”.";
   return null;
 }
@@ -125,9 +131,11 @@ export function mountCheck(store, edits, goTo) {
   store.watch(({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings], (state) => {
     tick.show(state);
     const { view, checked } = state;
-    setAllowed(checkButton, whyNotCheck(state), "Tests every rule on the waypoints that would be sent");
+    setAllowed(checkButton, whyNotCheck(state),
+      "Tests every rule on the waypoints that would be sent to the robot");
     const blocked = whyNotApprove(state);
-    setAllowed(approveButton, blocked, "Allows exactly these waypoints to be sent to the robot");
+    setAllowed(approveButton, blocked,
+      "Allows the studio to send exactly the checked waypoints to the robot");
     checkButton.classList.toggle("primary", !view?.verdict?.passed);
     approveButton.classList.toggle("primary", !blocked);
     why.textContent = view?.approval ? "" : (blocked ?? "After an edit or a new simulation, you must approve the gait again.");

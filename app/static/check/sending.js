@@ -13,13 +13,13 @@ const option = (name, factor = 1) => ({
 const FIELDS = [
   { label: "Merge within", name: "Merge waypoints within", unit: "mm", min: 0, max: 5, step: 0.1, decimals: 2, ...option("merge", 1000),
     help: "A waypoint is one message with a stroke for every motor. The robot stops at each waypoint, so fewer waypoints "
-      + "take less time. A waypoint is left out if it is closer than this distance to the straight path of "
-      + "the motors. If the distance is 0, every sample is sent. The robot itself accepts an error of 1 mm "
-      + "at each waypoint" },
+      + "take less time. The studio leaves out a waypoint only if it is closer than this distance to the "
+      + "straight path of the motors. The robot itself accepts an error of 1 mm at each waypoint. "
+      + "At 0, the studio sends every sample" },
   { label: "Stop bound", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
     help: "Longest time from the press of Stop until the robot stops. The robot can only stop between two "
-      + "moves. Long moves are therefore cut into shorter moves, and the walk takes longer. "
-      + "If this field is empty, no move is cut" },
+      + "moves, so the studio cuts long moves into shorter moves. The walk then takes longer. "
+      + "If this field is empty, the studio cuts no move" },
 ];
 
 /** What a move may last beyond its law, s, as the studio counts it (docs/firmware.md, Times). */
@@ -29,7 +29,8 @@ const bound = (value) => (value === null ? "none" : `${fixed(value)} s`);
 
 function costRow(cost) {
   const { stop_bound: limit, merged_seconds: merged, every_seconds: every, is_chosen: chosen } = cost;
-  const title = `Merged: ${cost.merged_waypoints} waypoints. Every sample: ${cost.every_waypoints} waypoints`;
+  const title = `With merging, the studio sends ${cost.merged_waypoints} waypoints. `
+    + `Without merging, the studio sends ${cost.every_waypoints} waypoints`;
   return h("tr", { data: chosen ? { chosen: "" } : {}, "aria-current": chosen ? "true" : null, title },
     h("th", { scope: "row", text: `${bound(limit)}${chosen ? " ✓" : ""}` }), h("td", { text: `${fixed(merged)} s` }), h("td", { text: `${fixed(every)} s` }), h("td", { text: `${seconds(cost.stop_seconds)} s` }));
 }
@@ -50,10 +51,14 @@ function inShort(view) {
   const plan = view?.plan;
   if (!plan?.waypoint_count) return "";
   const { waypoint_count: count, times, robot_seconds: takes, every_knot_seconds: every, stop_seconds: stop } = plan;
-  if (view.document.poses) return `${timesText(view)}. ${count} waypoints, one per pose. ${stopText(stop)}`;
-  const instead = Math.abs(every - takes) >= 0.5 ? ` (${fixed(every, 0)} s if every sample is sent without a stop bound)` : "";
-  const lasts = timesText(view) || `About ${fixed(takes, 0)} s on the robot`;
-  return `${lasts}. ${count} waypoints from ${times.length} samples${instead}. ${stopText(stop)}`;
+  if (view.document.poses) {
+    return `${timesText(view)}. The studio sends ${count} waypoints, one for each pose. ${stopText(stop)}`;
+  }
+  const instead = Math.abs(every - takes) < 0.5 ? ""
+    : `The walk takes ${fixed(every, 0)} s if the studio sends every sample without a stop bound. `;
+  const lasts = timesText(view) || `The walk takes about ${fixed(takes, 0)} s on the robot`;
+  const sends = `The studio sends ${count} waypoints from ${times.length} samples.`;
+  return `${lasts}. ${sends} ${instead}${stopText(stop)}`;
 }
 
 /** Builds the two fields and the line of what they cost. */

@@ -14,17 +14,19 @@ const VARIATIONS = 64;
 const CHANGES = "friction, masses, motor speed, one weak motor, a slope of up to 1°, and softer or stiffer legs";
 const VARY_HELP = `Simulates the gait ${VARIATIONS} times with random changes: ${CHANGES}. `
   + "Each press of this button uses the same random changes";
-const HELP = "Simulates exactly the waypoints that would be sent, with the timing of the firmware. "
-  + "The model has masses, friction and flexible legs";
+const HELP = "Simulates exactly the waypoints that would be sent to the robot, "
+  + "with the timing of the firmware. The model has masses, friction and flexible legs";
 const AXIS = "The timing of the robot differs from the timing of the plan. "
-  + "Results are shown at the matching time of the plan.";
+  + "The page shows each result at the matching time of the plan.";
 
 function whyNot(state) {
   const { view, pending } = state;
   if (!view) return "No gait is selected.";
   if (pending.length) return "The studio is still saving your last edit.";
   if (simulationJob(state)) return "Wait for the running simulation of this gait, or cancel it.";
-  if (!view.plan?.waypoints_hash) return view.plan?.refusal?.sentence ?? "There is no plan to simulate. Optimise first.";
+  if (!view.plan?.waypoints_hash) {
+    return view.plan?.refusal?.sentence ?? "There is no plan to simulate. Press Optimise first.";
+  }
   return null;
 }
 
@@ -127,7 +129,8 @@ const degrees = (radians) => fixed((radians * 180) / Math.PI);
 function cameOf({ walks, fell, max_tilt: tilt, distance, feet_error: error, ended_early: early }) {
   if (fell) return ["falls", "×", `The robot falls over, with a tilt of ${degrees(tilt)}°`];
   if (early) return ["falls", "×", `The simulation ends early: ${early.replace(/\.$/, "")}`];
-  const figures = `Tilt up to ${degrees(tilt)}°, distance ${mm(distance)} mm, foot error ${mm(error)} mm`;
+  const figures = `Tilt up to ${degrees(tilt)}°, distance walked ${mm(distance)} mm, `
+    + `mean foot error ${mm(error)} mm`;
   if (walks) return ["walks", "", `The robot walks. ${figures}`];
   return ["tips", "!", `The robot tips onto a foot that should be in the air. ${figures}`];
 }
@@ -170,7 +173,8 @@ export function robustness() {
       known = variations;
       const walking = variations.runs.filter(({ walks }) => walks).length;
       setText(share, `${walking} of ${variations.count} walk (${fixed((100 * walking) / variations.count, 0)} %)`);
-      setText(description, `Each variation has random changes: ${CHANGES}. Point at a cell to read about its variation.`);
+      setText(description, `Each cell is one variation, a simulation with random changes: ${CHANGES}. `
+        + "Point at a cell to read the result of this variation.");
       list.replaceChildren(...variations.runs.map(cell));
     },
   };

@@ -10,7 +10,10 @@ const degrees = (radians, decimals = 1) => fixed((radians * 180) / Math.PI, deci
 /** A button to a moment of the simulated robot; `after` follows its time. */
 function goTo(simulation, moment, goToTime, what, after = "") {
   const time = planTimeOf(simulation, moment);
-  return h("button", { class: "link", text: `${fixed(time)} s${after}`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `Moves the playhead to this time of the plan. On the robot, the time is ${fixed(moment)} s`, on: { click: () => goToTime(time) } });
+  return h("button", { class: "link", text: `${fixed(time)} s${after}`, on: { click: () => goToTime(time) },
+    "aria-label": `Go to ${what}, ${fixed(time)} s`,
+    title: "Moves the playhead to this time of the plan. "
+      + `The simulated robot is at this point after ${fixed(moment)} s` });
 }
 
 /** Foot, motor and value of the greatest of a value a motor. */
@@ -28,14 +31,28 @@ function rows(simulation, goToTime) {
   const [behind, force] = [greatestMotor(report.motor_error), greatestMotor(report.saturation)];
   const feetMean = report.feet_error.reduce((sum, error) => sum + error, 0) / report.feet_error.length;
   return [
-    ["Body, mean error", mm(report.body_error), "mm", null, "Mean distance between the simulated and the planned body, at the end of each move"],
-    ["Feet, mean error", mm(feetMean), "mm", null, "Mean distance between the simulated and the planned feet, at the end of each move"],
+    ["Body, mean error", mm(report.body_error), "mm", null,
+      "Mean distance between the simulated and the planned position of the body. "
+      + "The distance is measured at the end of each move"],
+    ["Feet, mean error", mm(feetMean), "mm", null,
+      "Mean distance between the simulated and the planned positions of the feet. "
+      + "The distance is measured at the end of each move"],
     ["Distance", `${mm(report.distance)} of ${mm(report.planned_distance)}`, "mm", null, "Distance that the body travels, in the simulation and in the plan"],
     ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "Angle by which the body turns, in the simulation and in the plan"],
-    ["Largest tilt", degrees(report.max_tilt), "°", at(report.max_tilt_time, "largest tilt"), "Angle between the body's axis and the vertical"],
-    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "Smallest distance of the centre of mass from the edge of the area between the feet that carry load. Below 0, only the width of the soles keeps the robot from tipping"],
-    ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest lag of a motor behind the position that the firmware commands: ${motorText(behind)}`],
-    ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Share of the time during which the force of a motor is at its limit: ${motorText(force)}`],
+    ["Largest tilt", degrees(report.max_tilt), "°", at(report.max_tilt_time, "largest tilt"),
+      "Largest angle between the body's upward axis and the vertical"],
+    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"),
+      "Smallest distance between the centre of mass and the edge of the support polygon. "
+      + "The corners of this polygon are the feet that carry load. "
+      + "Below 0, only the width of the soles keeps the robot from tipping"],
+    ["Motor behind", mm(behind.value, 2), "mm",
+      at(report.motor_error_times[behind.foot][behind.motor], "motor behind"),
+      `Largest lag of ${motorText(behind)} behind the position that the firmware commands. `
+      + "No other motor lags more"],
+    ["Motor at limit", fixed(force.value * 100, 0), "%",
+      force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null,
+      `Share of the time during which ${motorText(force)} is at its force limit. `
+      + "No other motor is at its limit for longer"],
   ];
 }
 
@@ -45,7 +62,10 @@ function wholeTable(simulation, goToTime) {
       h("th", { scope: "row", text: name }), h("td", { text: value }), h("td", { class: "unit", text: unit }), h("td", { class: "place" }, place)))));
 }
 
-const feetTable = ({ report }) => figureTable("Feet, mm", "Error: mean distance of the foot from the plan, at the waypoints. Slip: how far the sole slid while the foot should have been still", ["", "error", "slip"],
+const FEET_HELP = "Error: mean distance between a foot and its planned position, at the waypoints. "
+  + "Slip: distance that the sole slides while the foot should stand still";
+
+const feetTable = ({ report }) => figureTable("Feet, mm", FEET_HELP, ["", "error", "slip"],
   report.feet_error.map((error, foot) => [footName(foot), mm(error), mm(report.slip[foot])]));
 
 function findingItem(simulation, finding, goToTime) {

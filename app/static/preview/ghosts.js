@@ -8,9 +8,16 @@ import { latestOnly } from "../lib/latest_only.js";
 import { simulationOver } from "../state/simulation.js";
 
 const KINDS = {
-  before: { text: "Before the last edit", help: "Shows the gait before the last edit or, while you drag, before the drag" },
+  before: {
+    text: "Before the last edit",
+    help: "Shows the gait before the last edit. During a drag, shows the gait before the drag",
+  },
   saved: { text: "As saved", help: "Shows the gait as you last saved it" },
-  measured: { text: "As measured", shown: true, help: "Shows the robot of the open run, computed from the measured strokes and the planned feet on the ground" },
+  measured: {
+    text: "As measured", shown: true,
+    help: "Shows how the robot moved in the open run. "
+      + "The motion is computed from the measured strokes and the planned feet on the ground",
+  },
   simulated: { text: "As simulated", shown: true, help: "Shows the simulated robot, which can tilt and slip. Green rings mark feet that carry load. Red lines show where a foot slid" },
 };
 

@@ -88,13 +88,16 @@ function describe({ knob, label }, plan, index, pinned) {
   label.textContent = pinned && isFarthest(pinned) ? `${name}, at the limit of 30 mm` : name;
   knob.toggleAttribute("data-pinned", pinned !== null);
   knob.setAttribute("aria-valuenow", (sideways * 1000).toFixed(2));
-  knob.setAttribute("aria-valuetext", `${name}: ${pinWords({ along, sideways })} of an even travel`);
+  const offset = pinWords({ along, sideways });
+  knob.setAttribute("aria-valuetext", `${name}: ${offset}, compared with a body that moves evenly`);
 }
 
 /** Lays the handle over the scene and keeps it where the camera sees the pose. */
 export function mountPoseHandle(store, edits, playback, preview) {
   const layer = byId("pose");
-  const knob = handle("pose-place", "Pose", "Drag this handle on the floor to move the body in this pose. The pose is then pinned and keeps its place. The arrow keys move the body by 0.5 mm, with Shift by 5 mm");
+  const knob = handle("pose-place", "Pose", "Drag this handle on the floor to move the body in this pose. "
+    + "The pose is then pinned: the search keeps the body at this place. "
+    + "The arrow keys move the body by 0.5 mm, with Shift by 5 mm");
   knob.setAttribute("aria-valuemin", "-30");
   knob.setAttribute("aria-valuemax", "30");
   const label = h("span", { class: "goal-label" });

@@ -24,7 +24,7 @@ function liftedText(plan, roles, time) {
   const contact = plan?.times.length ? plan.contact?.[indexAt(plan.times, time)] : null;
   if (!contact) return "";
   const lifted = roles.flatMap((role, foot) => (contact[foot] === false ? [`${foot + 1} ${role}`] : []));
-  return lifted.length ? `in the air: ${lifted.join(", ")}` : "all feet are on the ground";
+  return lifted.length ? `feet in the air: ${lifted.join(", ")}` : "all feet are on the ground";
 }
 
 /**

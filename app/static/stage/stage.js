@@ -84,7 +84,7 @@ function followPlan(store, playback, preview) {
         store.set({ worked: null });
         return;
       }
-      message(`The plan cannot be shown: ${error.message}`);
+      message(`The 3D view cannot show the plan: ${error.message}`);
       missed = { id, plan, trouble, isGrey, since: null };
     }
   });

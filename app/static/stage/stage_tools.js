@@ -17,8 +17,8 @@ const ENTRIES = [
   },
   {
     key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"],
-    help: "The area between the feet on the ground. The colour is teal, or mustard if the centre of mass "
-      + "is near the edge, or magenta if the centre of mass is outside",
+    help: "Shows the area between the feet on the ground. The area is mustard if the centre of mass is near "
+      + "the edge, and magenta if the centre of mass is outside. Otherwise the area is teal",
   },
   {
     key: "com", text: "Centre of mass", shown: true, parts: ["com"],
@@ -26,7 +26,8 @@ const ENTRIES = [
   },
   {
     key: "cop", text: "Centre of pressure", shown: true, parts: ["cop"],
-    help: "Shows the point where the ground pushes on the robot, as a diamond on the floor, with its path",
+    help: "Shows the centre of pressure as a diamond on the floor, with its path. "
+      + "At this point the total force of the ground acts on the robot",
   },
   {
     key: "traces", text: "Swings and footholds", shown: true, parts: ["traces", "footholds"],
@@ -34,7 +35,8 @@ const ENTRIES = [
   },
   {
     key: "reach", text: "Reach of the feet", shown: false, parts: ["reach"],
-    help: "Outlines the area that each foot can reach at the present body height, on the floor and up to 12 mm above it",
+    help: "Outlines the area that each foot can reach, on the floor and up to 12 mm above the floor. "
+      + "The area depends on the present body height",
   },
   {
     key: "shadow", text: "Contact shadows", shown: true, parts: ["shadow"],
@@ -56,7 +58,8 @@ const ENTRIES = [
   {
     key: "pose", text: "Pose", shown: true, parts: [], layer: "pose",
     help: "Drag this handle to move the body in the pose at the playhead. "
-      + "Only gaits for the robot's clock have this handle",
+      + "Only gaits for the robot's clock have this handle. "
+      + "The robot's firmware decides the timing of such gaits",
   },
 ];
 

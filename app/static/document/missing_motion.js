@@ -62,7 +62,7 @@ const WORDS = {
 
 /** Why an entry is one, in a few words. */
 export function wordsOf(missing, contact) {
-  if (!BALANCE.has(missing.family)) return WORDS[missing.family]?.(missing) ?? "a limit is not kept";
+  if (!BALANCE.has(missing.family)) return WORDS[missing.family]?.(missing) ?? "a limit is violated";
   const row = contact[missing.first];
   const inAir = feetThat(row, false);
   const isLine = inAir.length > 0 && feetThat(row, true).length < LEAST_STANDING;

@@ -23,8 +23,8 @@ const seconds = (document, samples) => `${(Math.max(0, samples - 1) * document.t
 /** What of a region does not fit behind a sample, in words; null where all of it does. */
 const clippedText = (over) => {
   if (over <= 0) return null;
-  const what = over === 1 ? "The last sample does" : `The last ${over} samples do`;
-  return `${what} not fit into the timeline and will be left out.`;
+  if (over === 1) return "The last sample of the result does not fit into the timeline and is cut off.";
+  return `The last ${over} samples of the result do not fit into the timeline and are cut off.`;
 };
 
 const lengthNote = (before, after) => {
@@ -46,7 +46,7 @@ function mirroredWhole(document, region, mirror) {
 
 function mirrorNote(region, mirror) {
   const pairs = mirroredFeet(region, mirror).filter((foot) => foot < mirror[foot]).map((foot) => `${foot + 1} and ${mirror[foot] + 1}`);
-  return `These feet exchange their cells: ${pairs.join(", ")}.`;
+  return `These pairs of feet exchange their cells: ${pairs.join(", ")}.`;
 }
 
 function mirror({ document, region, mirror: map, words }) {
@@ -60,7 +60,7 @@ function mirror({ document, region, mirror: map, words }) {
 function vanishing(before, after) {
   const foot = before.timeline.feet.findIndex((row, index) => swingCount(after.timeline.feet[index]) < swingCount(row));
   return foot < 0 ? null
-    : `A swing of foot ${foot + 1} would disappear or touch the next swing. `
+    : `At this length, a swing of foot ${foot + 1} would disappear or touch the next swing. `
       + "Enter a larger number of samples.";
 }
 
@@ -86,13 +86,14 @@ function repeatWhole({ document, amount }) {
   const feet = document.segment_table ? null : isDrawn(document) ? drawnRows({ ...document, iterations }) : repeatedRows(document, iterations);
   const shown = feet && { ...document, iterations, timeline: { ...document.timeline, feet, locked: feet.map((row) => "0".repeat(row.length)) } };
   if (!feet && !document.segment_table) {
-    return { reason: `The ${document.iterations} iterations have different lengths. `
+    return { reason: `The whole gait cannot be repeated, because its ${document.iterations} iterations `
+      + "have different lengths. "
       + "Select the samples that you want to repeat." };
   }
   return {
     apply: (now) => ({ ...now, iterations }), document: shown, label: `Iterations to ${iterations}`, drawing: false, selection: null,
     note: shown ? `${counted(iterations, "iteration")}. ${lengthNote(document, shown)}`
-      : `The segment table will have ${counted(iterations, "iteration")}.`,
+      : `The gait will have ${counted(iterations, "iteration")}.`,
   };
 }
 
@@ -123,7 +124,7 @@ function duplicate({ document, region, words }) {
   const rest = sampleCount(document) - 1 - last;
   if (rest <= 0) {
     return { reason: "The selection ends at the end of the timeline, so a copy does not fit. "
-      + "Repeat makes the timeline longer." };
+      + "Use Repeat instead, because Repeat makes the timeline longer." };
   }
   const apply = (now) => withBlock(now, [region.feet[0], last + 1], blockOf(now, region));
   const clipped = clippedText(lengthOf(region) - rest);
@@ -137,7 +138,7 @@ function insert({ document, region, amount }) {
   const after = inserted(document, region, amount);
   return {
     apply: (now) => inserted(now, region, amount), label: `Insert ${counted(amount, "sample")} before sample ${region.samples[0] + 1}`,
-    note: `In the new samples each foot keeps its stance or swing. ${lengthNote(document, after)}`,
+    note: `Each foot stays in stance or swing during the new samples. ${lengthNote(document, after)}`,
     selection: { ...region, samples: [region.samples[0], region.samples[0] + amount - 1] },
   };
 }
@@ -160,7 +161,8 @@ const locking = (locks) => ({ region, words }) => ({ apply: (now) => withLocks(n
 export const OPERATIONS = {
   mirror: {
     name: "Mirror", outcome: mirror,
-    help: "Each foot exchanges its cells with the foot on the other side of the heading",
+    help: "Mirror the cells at the heading of the gait: "
+      + "each foot exchanges its cells with the foot on the other side",
   },
   stretch: {
     name: "Stretch", help: "Make the selection, or the whole timeline, longer or shorter", outcome: stretch,
@@ -181,22 +183,24 @@ export const OPERATIONS = {
   },
   repeat: {
     name: "Repeat", outcome: repeat,
-    help: "Repeat the selected samples of all feet and move the later samples. "
-      + "Without a selection the whole gait gets more iterations",
+    help: "Repeat the selected samples of all feet. Later samples move to the right. "
+      + "Without a selection, the whole gait gets more iterations",
     amount: { name: "Times", unit: "", least: 2, most: MOST_ITERATIONS, start: () => 2 },
   },
   rotate: { name: "Rotate by 90°", help: "Turn the direction of the whole gait by 90°", outcome: rotate },
   duplicate: {
-    name: "Duplicate", help: "Copy the selection to the samples right after the selection. "
-      + "The copy overwrites the cells in these samples",
+    name: "Duplicate", help: "Copy the selected cells to the samples right after the selection. "
+      + "The copy overwrites the old cells in these samples",
     outcome: duplicate,
   },
   stance: {
     name: "To stance", help: "Change the selected cells to stance",
     outcome: ({ region, words }) => ({ apply: (now) => toStance(now, region), label: `${words} to stance` }),
   },
-  lock: { name: "Lock", help: "Lock the cells: no edit changes them", outcome: locking(true) },
-  unlock: { name: "Unlock", help: "Allow changes of the locked cells again", outcome: locking(false) },
+  lock: { name: "Lock", help: "Lock cells, so that no edit can change them", outcome: locking(true) },
+  unlock: {
+    name: "Unlock", help: "Unlock cells, so that edits can change them again", outcome: locking(false),
+  },
   insert: {
     name: "Insert samples", outcome: insert, columns: true,
     help: "Insert samples for all feet before the selection or the focused cell. "
@@ -211,7 +215,7 @@ export const OPERATIONS = {
 
 const refusalOf = (before, after) => (sampleCount(after) > MOST_SAMPLES
   ? `The timeline would have ${sampleCount(after)} samples. `
-    + `The most that a timeline can have is ${MOST_SAMPLES}.`
+    + `A timeline can have at most ${MOST_SAMPLES} samples.`
   : heldBack(before, after));
 
 /**

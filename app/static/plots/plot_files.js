@@ -122,9 +122,13 @@ async function save(form, drawn) {
 
 /** Buttons that save a plot, one for each format; `drawn()` returns the argument of `plotSvg` and `plotCsv`, or null. */
 export function saveButtons(kind, drawn) {
-  const help = { SVG: "a picture for papers", PNG: "a picture for slides", CSV: "all values, one row per sample" };
+  const help = {
+    SVG: "Saves the plot as an SVG picture, for papers",
+    PNG: "Saves the plot as a PNG picture, for slides",
+    CSV: "Saves all values of the plot as a CSV file, one row per sample",
+  };
   return h("div", { class: "plot-save", role: "group", "aria-label": `Save ${kind.name}` }, ...Object.keys(FORMS).map((form) => h("button", {
-    class: "link", text: form, "aria-label": `Save ${kind.name} as ${form}`, title: `Save as ${form}: ${help[form]}`,
+    class: "link", text: form, "aria-label": `Save ${kind.name} as ${form}`, title: help[form],
     on: { click: () => { const now = drawn(); if (now) save(form, now); } },
   })));
 }

@@ -41,7 +41,8 @@ export const STRIPS = [
     isBad: ({ margin }, index) => (margin?.[index] ?? 0) < 0,
   },
   {
-    key: "strokes", name: "Strokes", title: "Strokes, mm", unit: "mm", shown: true, lack: "No strokes: the legs cannot reach this motion.",
+    key: "strokes", name: "Strokes", title: "Strokes, mm", unit: "mm", shown: true,
+    lack: "No strokes to plot, because the legs cannot reach the positions of this motion.",
     help: "Stroke of every motor in mm, with one row for each foot. Motor 1 has a thick line, "
       + "motor 2 a medium line, motor 3 a thin line",
     of: ({ strokes_mm: strokes, stroke_limits_mm: limits }) => (strokes ? { series: aMotor(strokes), low: limits[0], high: limits[1], lanes: true } : null),
@@ -66,7 +67,8 @@ export const STRIPS = [
     now: ({ foot_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => at, "mm/s"),
   },
   {
-    key: "motor_speeds", name: "Motor speeds", title: "Motor speed, mm/s", unit: "mm/s", shown: false, lack: "No strokes: the legs cannot reach this motion.",
+    key: "motor_speeds", name: "Motor speeds", title: "Motor speed, mm/s", unit: "mm/s", shown: false,
+    lack: "No strokes to plot, because the legs cannot reach the positions of this motion.",
     help: "Speed of every motor in mm/s, with one row for each foot. Motor 1 has a thick line, "
       + "motor 2 a medium line, motor 3 a thin line",
     of: ({ motor_speeds_mm_s: speeds, speed_limits_mm_s: limits }, options) =>

@@ -7,10 +7,10 @@ const NAME = /^[^\t\r\n,;"]{1,40}$/;
 
 /** Why a name cannot be taken; null where it can. */
 function nameReason(name, taken, what, withoutDash) {
-  if (!NAME.test(name)) return `The name of a ${what} must have 1 to 40 characters, without tabs, commas, `
-    + `semicolons and quotes.`;
+  if (!NAME.test(name)) return `The name of a ${what} must have 1 to 40 characters. `
+    + `Tabs, commas, semicolons and quotes are not allowed.`;
   if (withoutDash && name.includes("-")) return `The name “${name}” must not contain a hyphen. `
-    + `In a position, the hyphen stands between the names of place and height.`;
+    + `A hyphen separates place and height in the name of a position, such as Home-Base.`;
   if (taken.some((one) => one.toLowerCase() === name.toLowerCase())) return `A ${what} “${name}” already `
     + `exists. Choose another name.`;
   return null;
@@ -80,7 +80,8 @@ const numberOf = (text) => (text === "" ? NaN : Number(text.replace(",", ".").re
 
 const AXES = {
   xy: {
-    title: "Places", unit: "×", help: "Multiple of the step", shown: String, stored: (value) => value, least: -10, most: 10, fresh: 0.5,
+    title: "Places", unit: "×", help: "Foot position as a multiple of the step", shown: String,
+    stored: (value) => value, least: -10, most: 10, fresh: 0.5,
     uses: (position) => position.split("-")[0],
   },
   z: {
@@ -99,7 +100,7 @@ const freshName = (taken, stem) => {
 function numberReason(name, number, unit, [least, most]) {
   if (number >= least && number <= most) return null;
   if (unit !== "mm" || Number.isNaN(number)) return `“${name}” needs a number between ${least} and `
-    + `${most}${unit === "mm" ? " mm" : ""}. The old number is kept.`;
+    + `${most}${unit === "mm" ? " mm" : ""}. The old number stays.`;
   return `“${name}” cannot be ${number} mm. The robot's motors reach ${least} to ${most} mm. `
     + `Type a height in this range.`;
 }
@@ -128,7 +129,8 @@ function axisPart(sheet, axis, { run, refuse, strokes }) {
         },
       }),
       deletion(`Delete the ${what} ${name}`, user ? `The segment “${user}” uses “${name}”. `
-        + `Change or delete that segment before you delete the ${what}.` : last ? `The last ${what} cannot be deleted.` : null,
+        + `Change or delete that segment before you delete the ${what}.`
+        : last ? `A segment table needs at least one ${what}.` : null,
         () => run({ change: withDefinitions((words) => ({ [axis]: without(words[axis], name) })), label: `Delete ${what} ${name}` }), refuse));
   });
   const add = h("button", { class: "link", text: `Add a ${what}`, on: {
@@ -157,7 +159,8 @@ function segmentRow(sheet, name, { run, refuse }) {
     choice({ label: `End of ${name}`, value: segment.end, options: positions, read: (end) => set({ end }, `${name} ends at ${end}`) }),
     air,
     deletion(`Delete the segment ${name}`, uses ? `The table uses “${name}” in ${counted(uses, "cell")}. `
-      + `Replace “${name}” in the table first.` : Object.keys(sheet.words.segments).length === 1 ? "The last segment cannot be deleted." : null,
+      + `Replace “${name}” in the table first.`
+      : Object.keys(sheet.words.segments).length === 1 ? "A segment table needs at least one segment." : null,
       () => run({ change: withDefinitions((words) => ({ segments: without(words.segments, name) })), label: `Delete segment ${name}` }), refuse));
 }
 

@@ -8,7 +8,12 @@ const matches = (name, text) => name.toLowerCase().startsWith(text) || name.toLo
 function option(choice, index) {
   const { name, segment, why } = choice;
   const way = segment.start === segment.end ? `waits at ${segment.start}` : `${segment.start} → ${segment.end}`;
-  return h("li", { role: "option", id: `segment-option-${index}`, "aria-selected": "false", data: { ...(segment.swing ? { swing: "" } : {}), ...(why ? { why: "" } : {}) }, title: why ? `“${name}” ${why}. You can choose this segment, but then the segments before or after it must change.` : null },
+  return h("li", {
+    role: "option", id: `segment-option-${index}`, "aria-selected": "false",
+    data: { ...(segment.swing ? { swing: "" } : {}), ...(why ? { why: "" } : {}) },
+    title: why ? `“${name}” ${why}. If you choose this segment, `
+      + "you must also change the segments before or after it." : null,
+  },
     h("b", { text: name }), h("span", { text: why ?? way }));
 }
 
@@ -27,7 +32,8 @@ export function openSegmentChooser(cell, sheet, [row, foot], { text, choose, clo
     "aria-label": `Segment of foot ${foot + 1}`, placeholder: sheet.rows[row][foot],
   });
   const before = placeBefore(sheet, row, foot);
-  const place = h("p", { text: before ? `Foot ${foot + 1} is at ${before}.` : `Foot ${foot + 1} starts with this segment.` });
+  const place = h("p", { text: before ? `Foot ${foot + 1} is at ${before} before this segment.`
+    : `This is the first segment of foot ${foot + 1}.` });
   const element = h("div", { class: "chooser", data: { foot: foot + 1 } }, input, place, list);
   const all = choicesOf(sheet, row, foot);
   let shown = [];

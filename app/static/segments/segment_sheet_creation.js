@@ -9,8 +9,8 @@ import { shownDocument } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
 
 const EMPTY = "The footfalls of this gait are drawn on the timeline. "
-  + "A segment table describes footfalls in words: "
-  + "in each segment, every foot makes one named movement, such as Lift A, Step A or Wait A.";
+  + "A segment table describes the same footfalls in words. "
+  + "In each segment, every foot makes one named movement, such as Lift A, Step A or Wait A.";
 
 /** The document drawn with phases that fit two segments, or null if a person drew the timeline. */
 function withRoom(document) {
@@ -46,15 +46,15 @@ export function mountSegmentSheetCreation(store, edits) {
     if (store.state.view?.id !== id || store.state.view.revision !== revision) return;
     found = answer;
     offer = table && { ...other, segment_table: table };
-    setAllowed(make, found.table ? null : found.sentence, "Describes the same footfalls as named segments. "
-      + "Undo removes the table");
+    setAllowed(make, found.table ? null : found.sentence, "Makes a table that describes the footfalls "
+      + "of this timeline as named segments. Undo removes the table");
     setText(why, found.sentence ?? "");
     roomy.hidden = !offer;
     if (!offer) return;
     const { phase_knots: phase, closing_knots: closing } = offer.options;
     setText(roomy, `Make a table with phases of ${phase} samples`);
-    roomy.title = `Draws the timeline again, with phases of ${phase} samples and a final stance of `
-      + `${counted(closing, "sample")}, and makes the table. Undo restores the old timeline`;
+    roomy.title = `Draws the timeline again with phases of ${phase} samples and a final stance of `
+      + `${counted(closing, "sample")}. Then makes the table. Undo restores the old timeline`;
   });
 
   onPress(make, () => {

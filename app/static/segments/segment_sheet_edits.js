@@ -25,7 +25,8 @@ const withCells = (cells) => (sheet) => {
 
 const put = (sheet, cells, label) => {
   const changed = cells.filter(([row, foot, name]) => sheet.rows[row][foot] !== name);
-  return changed.length ? { change: withCells(changed), label, kept: changed.map(([row, foot]) => [row, foot]) } : { reason: "These cells already have this segment." };
+  if (!changed.length) return { reason: "The selected cells already have this segment." };
+  return { change: withCells(changed), label, kept: changed.map(([row, foot]) => [row, foot]) };
 };
 
 const cellsOf = ({ rows, feet }) => {
@@ -45,8 +46,9 @@ export function setWaits(sheet, range) {
     const first = range.rows[0];
     const place = placeBefore(sheet, first, foot) ?? sheet.words.segments[sheet.rows[first][foot]]?.start;
     const name = waitAt(sheet, place);
-    if (!name) return { reason: `Foot ${foot + 1} is at ${place} before ${rowName(sheet, first)}, but no `
-      + `segment waits at ${place}. Add such a segment under Vocabulary.` };
+    if (!name) return { reason: `Foot ${foot + 1} cannot wait in ${rowName(sheet, first)}. `
+      + `Before this segment, foot ${foot + 1} is at ${place}, and no segment waits at ${place}. `
+      + "Add such a segment under Vocabulary." };
     for (let row = first; row <= range.rows[1]; row += 1) cells.push([row, foot, name]);
   }
   return put(sheet, cells, `${capital(rangeName(sheet, range))} to waiting`);
@@ -55,7 +57,7 @@ export function setWaits(sheet, range) {
 /** The range's first row into its other rows; a single row takes over the one above it. */
 export function fillDown(sheet, range) {
   const from = range.rows[0] === range.rows[1] ? range.rows[0] - 1 : range.rows[0];
-  if (from < 0) return { reason: "The first row cannot be filled, because there is no row above it." };
+  if (from < 0) return { reason: "The first row cannot be filled, because no row is above the first row." };
   return put(sheet, cellsOf(range).map(([row, foot]) => [row, foot, sheet.rows[from][foot]]), `Fill down ${rangeName(sheet, range)}`);
 }
 
@@ -81,8 +83,8 @@ export function paste(sheet, range, names) {
   const outcome = put(sheet, cells, `Paste into ${rangeName(sheet, filled)}`);
   const broken = outcome.change && errorsOf(outcome.change(sheet)).find(({ stops }) => stops);
   if (broken) return { reason: `Not pasted. ${errorSentence(sheet, broken)} The table has not changed.` };
-  return { ...outcome, range: filled, note: missing.length ? `${missing.join(" and ")} did not fit and `
-    + `were not pasted.` : null };
+  return { ...outcome, range: filled, note: missing.length
+    ? `Some of the copied segments did not fit and were not pasted: ${missing.join(" and ")}.` : null };
 }
 
 /** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` if it is the link's. */
@@ -94,7 +96,7 @@ export function insertRow(sheet, after, inLink = false) {
     const name = waitAt(sheet, place);
     if (!name) return { reason: `No segment can be inserted here. `
       + `Foot ${foot + 1} is in the air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no `
-      + `segment waits at ${place}. Insert before or after the step of this foot.` };
+      + `segment waits at ${place}. Insert before or after the step of foot ${foot + 1} instead.` };
     names.push(name);
   }
   const change = (now) => {

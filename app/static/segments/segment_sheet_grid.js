@@ -3,6 +3,11 @@
 import { h, setAttribute, setText } from "../lib/dom.js";
 
 const FEW_FEET = 4;
+const LINK = "Between two iterations, the gait uses the link "
+  + "instead of the segments before and after the repeating part";
+const REPEATED = "Every iteration of the gait contains this segment once";
+const FIRST = "The gait contains this segment only once, at the beginning";
+const LAST = "The gait contains this segment only once, at the end";
 const WAYS = { true: "in the air", false: "on the ground" };
 
 function headRow(legs, roles) {
@@ -44,7 +49,8 @@ export function createSegmentSheetGrid(grid, addLink) {
     parts = sheet.rows.map((_, row) => bodyRow(sheet, row));
     const elements = parts.map(({ element }) => element);
     const linked = sheet.rows.length > sheet.count;
-    const bridge = h("div", { role: "row", class: "bridge" }, h("div", { role: "rowheader", title: "Between two iterations, the link replaces the segments before and after the repeating part" }, "Link", h("span", { text: linked ? "connects two iterations" : "none" }),
+    const bridge = h("div", { role: "row", class: "bridge" }, h("div", { role: "rowheader", title: LINK },
+      "Link", h("span", { text: linked ? "connects two iterations" : "none" }),
       linked ? null : h("button", { class: "link", text: "Add", title: "Add a segment that connects one "
         + "iteration with the next iteration", on: { click: addLink } })));
     elements.splice(sheet.count, 0, bridge);
@@ -66,7 +72,8 @@ export function createSegmentSheetGrid(grid, addLink) {
       parts.forEach(({ element, head, cells }, row) => {
         const repeats = row >= sheet.from - 1 && row < sheet.to;
         element.toggleAttribute("data-repeats", repeats);
-        setAttribute(head, "title", row >= sheet.count ? "Between two iterations" : repeats ? "Every iteration of the gait walks this segment once" : row < sheet.from - 1 ? "This segment is walked once, at the beginning of the gait" : "This segment is walked once, at the end of the gait");
+        setAttribute(head, "title", row >= sheet.count ? "Between two iterations" : repeats ? REPEATED
+          : row < sheet.from - 1 ? FIRST : LAST);
         cells.forEach((cell, foot) => drawCell(cell, sheet, row, foot, found.get(`${row},${foot}`)));
       });
       return isNew;

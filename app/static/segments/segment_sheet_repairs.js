@@ -16,7 +16,8 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   const own = Array.from({ length: sheet.legs }, (_, one) => one).find((one) => ownRow(sheet, one) === foot);
   const words = names.join(", ");
   const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${capital(range(first, names.length))} to ${words}`;
-  const help = inserted ? `Inserts ${range(first, names.length)}, in which the other feet wait` : `Changes foot ${own + 1}, and the link if it has to change too`;
+  const help = inserted ? `Inserts ${range(first, names.length)}, in which the other feet wait`
+    : `Changes the segments of foot ${own + 1}. Changes the link too, if necessary`;
   const mended = segmentSheetOf({ ...document, segment_table: table });
   const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
   return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${lowered(label)}`, kept: [] } };
@@ -65,8 +66,11 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
       return;
     }
     note.dataset.tone = stops ? "bad" : "caution";
-    const more = errors.length > 1 ? ` ${errors.length - 1} more ${errors.length > 2 ? "cells do" : "cell does"} not fit.` : "";
-    const after = stops ? "The gait uses its last valid table until all segments fit." : "The gait can walk one iteration, but not several iterations.";
+    const others = errors.length - 1;
+    const more = others > 1 ? ` ${others} more cells have errors.`
+      : others === 1 ? " 1 more cell has an error." : "";
+    const after = stops ? "The gait uses its last valid table until you correct all errors."
+      : "The gait can have only one iteration until you correct all errors.";
     note.replaceChildren(h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
       h("div", { class: "buttons" },
         ...offers.map(({ label, help, step }) => h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } })),

@@ -153,7 +153,7 @@ function mountSegmentDrafts(store) {
     put(view.id, null);
     write(view.id, null);
     toast(`The segment table of “${view.document.name}” was changed in another window. `
-      + `Your changes that did not fit yet were discarded.`);
+      + `Your changes in this window still had errors and were discarded.`);
   }
 
   function recall(view, base) {

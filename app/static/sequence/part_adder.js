@@ -32,7 +32,9 @@ export function partAdder(store, edits) {
     const { apply, label } = added(await api.document(source), source);
     await edits.edit(apply, label, { gait });
   });
-  const button = h("button", { text: "Add", title: "Adds the chosen gait at the end", on: { click: act } });
+  const button = h("button", {
+    text: "Add", title: "Adds the chosen gait at the end of the sequence", on: { click: act },
+  });
   store.watch(({ gaits, selected, view }) => [gaits, selected, isSequence(view?.document)], ({ gaits, selected, view }) => {
     if (!isSequence(view?.document)) return;
     const { robot } = gaits.find(({ id }) => id === selected) ?? { robot: null };

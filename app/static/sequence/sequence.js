@@ -15,8 +15,10 @@ import { partAdder } from "./part_adder.js";
 import { partRows } from "./sequence_rows.js";
 import { SAMPLE_TIMES, sequenceTrouble } from "./sequence_trouble.js";
 
-const TEACH = "Each part starts where the part before ends, with the same feet, body and heading. You check and approve the whole sequence once.";
-const OPTIMISE = "After every edit, the studio computes the motions of the parts again. Optimise parts also improves the footholds of each part, over all its repetitions.";
+const TEACH = "Each part starts with the feet, body and heading that the previous part ends with. "
+  + "You check and approve the sequence as a whole, not part by part.";
+const OPTIMISE = "After every edit, the studio computes the motions of the parts again. "
+  + "The button Optimise parts also improves the footholds of each part, over all its repetitions.";
 const ALL_EXACT = "There is nothing to optimise. Each part is already optimised, made by hand or recorded.";
 
 function totals() {
@@ -59,7 +61,9 @@ async function createSequence(store) {
   const view = await api.sequence({ name: freeName(store.state, "Sequence"), parts: [{ gait: first.id }] });
   await selectGait(store, view.id);
   openStep("design");
-  if (shown && first !== shown) toast(`“${shown.name}” cannot be a part (${shown.part_refusal}). The sequence begins with “${first.name}” instead. Choose other gaits under “Gait to add”.`);
+  if (shown && first !== shown) toast(`“${shown.name}” cannot be a part of a sequence `
+    + `(${shown.part_refusal}). The sequence begins with “${first.name}” instead. `
+    + "Choose other gaits under “Gait to add”.");
 }
 
 /** What a sequence is offered: to optimise its parts. */
@@ -68,7 +72,8 @@ function exactParts(store) {
   onPress(button, attempt(() => api.optimiseParts(store.state.selected)), (why) => toast(why));
   store.watch((state) => [state.jobs, state.view, state.pending.length], ({ jobs, view, pending }) => {
     if (!isSequence(view?.document)) return;
-    const busy = jobs.some((job) => job.gait === view.id && jobIsOn(job)) && "The parts are being optimised. Wait for these jobs or cancel them.";
+    const busy = jobs.some((job) => job.gait === view.id && jobIsOn(job))
+      && "The studio is already optimising the parts. Wait until the jobs end, or cancel the jobs.";
     const open = view.plan.parts.some(({ source }) => ["live", "draft"].includes(source));
     setAllowed(button, busy || (pending.length ? "The studio is still saving your last edit." : open ? null : ALL_EXACT), "Optimises each part that has no optimised motion yet");
   });

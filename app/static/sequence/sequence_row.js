@@ -85,8 +85,9 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   Object.assign(row.input.dataset, { shown: String(part.times), part: title });
   if (row.refusal.hasError() && isAnother) row.giveUp();
   if (document.activeElement !== row.input && !row.refusal.hasError()) row.input.value = part.times;
-  setAllowed(row.up, index === 0 ? "This is the first part." : null, `Move “${title}” up (Alt+Up)`);
-  setAllowed(row.down, index === count - 1 ? "This is the last part." : null,
+  setAllowed(row.up, index === 0 ? "The first part cannot move up." : null,
+    `Move “${title}” up (Alt+Up)`);
+  setAllowed(row.down, index === count - 1 ? "The last part cannot move down." : null,
     `Move “${title}” down (Alt+Down)`);
   setAllowed(row.out, count === 1 ? "A sequence needs at least one part. "
     + "Delete the sequence instead." : null, `Take “${title}” out (Delete)`);
@@ -94,8 +95,9 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   const [word, tone] = source === "changed" ? ["source changed", "caution"] : planned ? (STATES[planned.source] ?? [planned.source, "quiet"]) : ["…", "quiet"];
   row.dot.dataset.tone = tone;
   const isFromRest = Boolean(part.restarts) && part.times > 1;
-  setText(row.word, isFromRest ? `${word}, each from rest` : word);
-  setAttribute(row.word, "title", source === "changed" ? "This part was copied from a gait whose motion has changed since" : planned?.note);
+  setText(row.word, isFromRest ? `${word}, repetitions from rest` : word);
+  setAttribute(row.word, "title", source === "changed"
+    ? "The motion of the original gait has changed since you added or updated this part" : planned?.note);
   row.over.hidden = source !== "changed";
   row.through.hidden = !isFromRest || source === "changed";
 }

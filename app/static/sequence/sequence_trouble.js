@@ -8,7 +8,8 @@ export const SAMPLE_TIMES = "sample_time";
 
 const RESAMPLE = "Gives all parts the sample time that most parts have. Phases are rounded up to whole samples, so no motion "
   + "becomes faster. Optimised parts that change must be optimised again. One Undo reverts the whole change.";
-const RESTART = "Each repetition starts and ends at rest, with the same motion as a part that runs once. One Undo reverts this change.";
+const RESTART = "Each repetition starts and ends at rest, like a part that runs only once. "
+  + "One Undo reverts this change.";
 
 /** The parts that have no motion without a pause but one of their own, counted from 0. */
 const restartable = (plan) => (plan?.parts ?? []).filter((part) => part.has_own_motion).map(({ part }) => part);

@@ -46,7 +46,10 @@ function robotTicks(axis, plan, width) {
 
 /** In each move of a gait for the robot's clock, from when Stop is heard. */
 const heardMarks = (axis, plan) => (plan?.poses?.heard ?? []).map((time) => [fractionAt(axis, time), time]).filter(([left]) => isShown(left))
-  .map(([left, time]) => placed(h("b", { class: "heard", title: `In this move, the robot can react to Stop from ${time.toFixed(1)} s on` }), left));
+  .map(([left, time]) => placed(h("b", {
+    class: "heard",
+    title: `From ${time.toFixed(1)} s of the plan on, the robot can react to Stop in this move`,
+  }), left));
 
 /** Marks of findings; where several fall on one sample the errors lie on top. */
 function findingMarks(axis, verdict) {

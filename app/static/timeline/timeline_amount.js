@@ -7,8 +7,10 @@ import { lengthOf, wholeOf } from "../document/region.js";
 const whole = (text) => (/^[-−+]?\d+$/.test(text.trim()) ? Number(text.trim().replace("−", "-")) : null);
 
 function sentenceOf({ name, least, most, unit }, value) {
-  if (value === null) return `${name} needs a whole number.`;
-  if (value < least || value > most) return `${name} must lie between ${least} and ${most}${unit ? ` ${unit}` : ""}.`;
+  if (value === null) return `“${name}” needs a whole number.`;
+  if (value < least || value > most) {
+    return `“${name}” must lie between ${least} and ${most}${unit ? ` ${unit}` : ""}.`;
+  }
   return null;
 }
 
@@ -21,7 +23,7 @@ function numberField(label, value, unit, step = 1) {
 function factorField(length, from, changed) {
   const field = numberField("Factor", "1", "×", 0.1);
   const show = () => { field.input.value = String(Math.round((Number(length.value) / from()) * 100) / 100); };
-  const wrong = () => (Number(field.input.value) > 0 ? null : "Factor needs a number above 0.");
+  const wrong = () => (Number(field.input.value) > 0 ? null : "“Factor” needs a number above 0.");
   length.addEventListener("input", () => { if (whole(length.value)) show(); });
   field.input.addEventListener("input", () => {
     if (!wrong()) length.value = String(Math.max(1, Math.round(from() * Number(field.input.value))));

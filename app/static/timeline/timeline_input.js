@@ -17,14 +17,15 @@ import { partOf } from "../document/swings.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const PAINTS = "Hold Alt or B and drag to paint.";
-const ELSEWHERE = "Drag with Shift to lock cells, with Ctrl to select cells.";
+const ELSEWHERE = "Drag with Shift to lock cells. Drag with Ctrl to select cells.";
 const PAINT_HELP = {
   stance: `Click to change this cell to swing. Drag to paint cells. ${ELSEWHERE}`, middle: `Drag to move the swing. Click to change this cell to stance. ${PAINTS}`,
   end: `Drag to move this end of the swing. Click to change this cell to stance. ${PAINTS}`, locked: "This cell is locked. To unlock cells, drag from here with Shift.",
 };
 const TOOL_HELP = {
-  select: "Drag to select cells. Double-click to select a swing. Drag selected cells to move them, with Alt to copy them.",
-  lock: "Drag to lock cells. Start on a locked cell to unlock cells.",
+  select: "Drag to select cells. Double-click to select a swing. "
+    + "Drag selected cells to move them. Drag selected cells with Alt to copy them.",
+  lock: "Drag to lock cells. To unlock cells, start the drag on a locked cell.",
 };
 
 function helpOf(tool, part, fixed) {

@@ -18,8 +18,8 @@ function plainItems(actions, selectAll) {
     copy: { name: "Copy", help: "Copies the cells to the clipboard, as rows of 1 (stance) and 0 "
       + "(swing)", act: actions.copyNow },
     cut: { name: "Cut", help: "Copies the cells, then changes them to stance", act: actions.cutNow },
-    paste: { name: "Paste", help: "Pastes from the first selected cell on. "
-      + "Without a selection, pastes from the focused cell on", act: actions.pasteNow },
+    paste: { name: "Paste", help: "Pastes the copied cells, starting at the first selected cell. "
+      + "Without a selection, starts at the focused cell", act: actions.pasteNow },
     all: { name: "Select all", help: "Selects all samples of all feet", act: selectAll },
     loop: { name: "Loop", help: "Repeats the selected samples during playback. "
       + "Choose Loop again to end the loop", act: actions.loop },

@@ -8,9 +8,13 @@ import { OPERATIONS } from "../document/operations.js";
 import { toast } from "../lib/toasts.js";
 
 const TOOLS = {
-  paint: ["Paint", "Paint (B): click a cell to change it, drag to paint cells or to move a swing. Drag with Shift to lock, with Ctrl to select"],
-  select: ["Select", "Select: drag to select cells, double-click to select a swing. Drag selected cells to move them, with Alt to copy them. In every tool, drag with Ctrl to select"],
-  lock: ["Lock", "Lock: drag to lock cells, so that they keep their value. Start on a locked cell to unlock cells. In every tool, drag with Shift to lock. The key K locks the selected cells"],
+  paint: ["Paint", "Paint (B): click a cell to change it. Drag to paint cells or to move a swing. "
+    + "Drag with Shift to lock cells, or with Ctrl to select cells"],
+  select: ["Select", "Select: drag to select cells, or double-click to select a swing. "
+    + "Drag selected cells to move them, or with Alt to copy them. With every tool, Ctrl+drag selects cells"],
+  lock: ["Lock", "Lock: drag to lock cells, so that no edit can change them. "
+    + "To unlock cells, start the drag on a locked cell. "
+    + "With every tool, Shift+drag locks cells, and the key K locks the selected cells"],
 };
 
 function toolGroup(store) {

@@ -125,7 +125,9 @@ def test_a_paste_that_does_not_fit_is_refused_with_the_place_and_the_table_stays
         expect(page.locator("#toasts")).to_contain_text(f"{place}, segment 2: there is no segment “”")
     put_on_clipboard(page, "Wait A\tWait A\tWait A\tWait A\tWait A")
     page.keyboard.press("Control+v")
-    expect(page.locator("#toasts")).to_contain_text("2 columns after the last foot did not fit")
+    expect(page.locator("#toasts")).to_contain_text(
+        "Some of the copied segments did not fit and were not pasted: 2 columns after the last foot"
+    )
     expect(page.locator("#toasts")).to_contain_text("already have this segment")
 
 

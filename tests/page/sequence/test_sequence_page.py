@@ -183,7 +183,7 @@ def test_a_changed_source_is_said_and_taken_over(page: Page, studio: StudioProce
 def test_nothing_is_painted_on_a_sequence(page: Page, studio: StudioProcess, tour: str) -> None:
     before = studio.ask("GET", f"/api/gaits/{tour}").content
     page.get_by_role("gridcell", name=re.compile("^foot 2, sample 2: ")).click()
-    expect(page.get_by_text("The timeline of a sequence follows from its parts").first).to_be_visible()
+    expect(page.get_by_text("You cannot draw in the timeline of a sequence").first).to_be_visible()
     expect(page.get_by_role("grid", name="Footfall timeline")).to_have_attribute("aria-readonly", "true")
     assert studio.ask("GET", f"/api/gaits/{tour}").content == before
 
@@ -261,10 +261,10 @@ def test_repetitions_start_from_rest_and_follow_each_other_again(
     document = studio.ask("GET", f"/api/gaits/{tour}").content
     document["sequence"][0]["restarts"] = True
     studio.ask("PUT", f"/api/gaits/{tour}?label=From+rest", document)
-    expect(rows(page).first).to_contain_text("each from rest")
+    expect(rows(page).first).to_contain_text("repetitions from rest")
     rows(page).first.get_by_role("button", name="without a pause").click()
     expect(undo(page)).to_contain_text("run Walk 10 mm without a pause")
-    expect(rows(page).first).not_to_contain_text("each from rest")
+    expect(rows(page).first).not_to_contain_text("repetitions from rest")
     assert "restarts" not in studio.ask("GET", f"/api/gaits/{tour}").content["sequence"][0]
     assert findings(page) == []
 

@@ -80,7 +80,7 @@ def test_a_flag_says_why_in_a_few_words(page: Page) -> None:
     assert words_of(page, "1111", lack("workspace", 4, 6, 1, amount=3.12)) == "foot 2: reach 3.1 mm short"
     assert words_of(page, "1110", lack("foot_speed", 4, 6, 3, unit="mm/s")) == "foot 4 too fast"
     assert words_of(page, "1111", lack("body_speed", 4, 6, unit="mm/s")) == "body too fast"
-    assert words_of(page, "1111", lack("something new", 4, 6)) == "a limit is not kept"
+    assert words_of(page, "1111", lack("something new", 4, 6)) == "a limit is violated"
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_a_flag_says_why_in_a_few_words(page: Page) -> None:
         ("foot 4 too fast", "foot 4"),
         ("feet 1 and 2 too close", "feet 1 and 2"),
         ("body height off by 2.0 mm", "body height"),
-        ("a limit is not kept", "a limit is not kept"),
+        ("a limit is violated", "a limit is violated"),
     ],
 )
 def test_where_there_is_no_room_a_flag_keeps_whole_words(page: Page, words: str, short: str) -> None:

@@ -144,7 +144,7 @@ def test_any_whole_length_is_taken_and_a_wrong_factor_has_a_sentence(timeline: T
     asked = timeline.page.get_by_role("dialog", name="Stretch")
     factor = asked.get_by_label("Factor")
     factor.fill("0")
-    expect(asked.get_by_role("status")).to_have_text("Factor needs a number above 0.")
+    expect(asked.get_by_role("status")).to_have_text("“Factor” needs a number above 0.")
     asked.get_by_label("New length").fill("10")
     expect(factor).to_have_value("1.11")
     asked.get_by_role("button", name="Apply").click()

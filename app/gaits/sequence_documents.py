@@ -79,7 +79,7 @@ def normalise_sequence(before: Gait, after: Gait) -> Gait:
         if before.sequence and asked not in (getattr(before, field), getattr(normalised, field)):
             raise InputError(
                 f"The {field.replace('_', ' ')} of a sequence follows from its parts. Edit the gait that a "
-                "part comes from, and take it over again.",
+                "part comes from, and update the part.",
                 field,
             )
     return normalised

@@ -378,7 +378,7 @@ def motion_problem(gait: Gait, model: RobotModel) -> MotionProblem:
     if gait.sequence:
         raise InputError(
             f"“{gait.name}” is a sequence: its parts have motions of their own. Optimise the gait that a "
-            "part comes from, and take it over again.",
+            "part comes from, and update the part.",
             "sequence",
         )
     if gait.poses is not None:

@@ -118,7 +118,9 @@ class AtlasService:
         if self._closed:
             raise StateError("The studio is closing.", "studio")
         if self._running is not None:
-            raise StateError("An atlas is being made. Wait for it, or cancel it in Jobs.", "atlas")
+            raise StateError(
+                "An atlas is being made. Wait until its job ends, or cancel the job in Jobs.", "atlas"
+            )
 
     @property
     def _running(self) -> AtlasJob | None:

@@ -10,7 +10,7 @@ import { jobIsOn } from "../shell/job_list.js";
 const HEADS = ["Atlas", "Gaits", "Solved", "Fastest", "", ""];
 const NEW_TAB = { target: "_blank", rel: "noopener" };
 const NUMBERS = [1, 2, 3];
-const DELETE_HELP = "Removes this atlas from the list. Undo brings it back";
+const DELETE_HELP = "Removes this atlas from the list. Undo restores the atlas";
 
 /** A whole number with its thousands apart. */
 export const count = (number) => number.toLocaleString("en");
@@ -22,7 +22,8 @@ function link(text, href, label, title, more) {
 function deleteButton({ name, included }, isBusy, erase) {
   const label = `Delete ${name}`;
   const button = h("button", { type: "button", class: "link", text: "Delete", "aria-label": label });
-  const why = included ? "This atlas comes with the program" : "Cancel its job first";
+  const why = included ? "You cannot delete this atlas, because it comes with the program"
+    : "A job is making this atlas. Cancel the job before you delete the atlas";
   setAllowed(button, included || isBusy ? why : null, DELETE_HELP);
   onPress(button, () => erase(name), (reason) => toast(`${reason}.`));
   return button;
@@ -30,16 +31,18 @@ function deleteButton({ name, included }, isBusy, erase) {
 
 function titleOf({ name, included }, pick) {
   if (included) return h("span", { text: name, title: "This atlas comes with the program" });
-  const title = "Go on with this atlas";
+  const title = "Chooses this atlas, so that you can add gaits to it";
   return h("button", { type: "button", class: "link", text: name, title, on: { click: pick } });
 }
 
 function files(name) {
   const [html, csv] = ["html", "csv"].map((form) => atlasApi.fileAddress(name, form));
   return h("td", { class: "atlas-files" },
-    link("Map", atlasApi.mapAddress(name), `Map of ${name}`, "Opens the map in a new tab", NEW_TAB),
-    link("HTML", html, `${name} as HTML`, "The map as a file that needs no studio", { download: "" }),
-    link("CSV", csv, `${name} as CSV`, "All gaits as a table", { download: "" }));
+    link("Map", atlasApi.mapAddress(name), `Map of ${name}`, "Opens the map of this atlas in a new tab",
+      NEW_TAB),
+    link("HTML", html, `${name} as HTML`,
+      "Downloads the map as a web page. The page opens without the studio", { download: "" }),
+    link("CSV", csv, `${name} as CSV`, "Downloads all gaits of this atlas as a table", { download: "" }));
 }
 
 function tableRow(atlas, isBusy, { pick, erase }) {

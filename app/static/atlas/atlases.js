@@ -9,12 +9,12 @@ import { jobIsOn } from "../shell/job_list.js";
 import { robotOptions, robots } from "../shell/robots.js";
 import { atlasTable, count } from "./atlas_table.js";
 
-const PURPOSE = "An atlas shows what a robot can do. The studio draws thousands of gaits, with other foot "
-  + "orders, steps, turns and stability margins, and solves and checks each of them. "
-  + "The map of an atlas shows which of them are fast and which are stable.";
+const PURPOSE = "An atlas shows what a robot can do. The studio makes thousands of gaits with different "
+  + "foot orders, steps, turns and stability margins. The studio solves and checks each gait. "
+  + "The map of an atlas shows which gaits are fast and which gaits are stable.";
 const COST = "The studio evaluates about 40 gaits a second in the background. You can go on working.";
-const BUSY = "An atlas is being made. Wait for it, or cancel it in Jobs";
-const NAME_HELP = "The name of the atlas. With the name of one in the list, its run goes on";
+const BUSY = "An atlas is being made. Wait until its job ends, or cancel the job in Jobs";
+const NAME_HELP = "The name of the atlas. To add gaits to an atlas of the list, type the name of that atlas";
 const [USUAL, MOST] = [10000, 1000000];
 
 function addStyles() {
@@ -46,9 +46,9 @@ function fields(list, changed) {
   gaits.addEventListener("input", () => gaitsRefusal.setError(null));
   return {
     element: h("div", { class: "atlas-fields" },
-      labelled("Robot", robot, "The robot whose gaits are evaluated"),
+      labelled("Robot", robot, "The studio evaluates gaits of this robot"),
       labelled("Name", name, NAME_HELP, nameRefusal),
-      labelled("Gaits", gaits, `How many gaits the atlas is to have (1 to ${count(MOST)})`, gaitsRefusal)),
+      labelled("Gaits", gaits, `Number of gaits in the atlas (1 to ${count(MOST)})`, gaitsRefusal)),
     robot: () => robot.value,
     name: () => name.value.trim(),
     follow,

@@ -10,9 +10,9 @@ import { robotOptions, robots } from "../shell/robots.js";
 import { fastestRequest } from "./fastest_request.js";
 import { searchPart } from "./fastest_search.js";
 
-const PURPOSE = "Makes the gait that walks or turns fastest on the robot. "
-  + "The number below a value shows how fast the gait "
-  + "would be with this value. You can still change all values after you have created the gait.";
+const PURPOSE = "Here you create the gait with which the robot walks or turns fastest. "
+  + "The number below a value is the speed of the gait with this value. "
+  + "After you have created the gait, you can still change all values.";
 const OTHER_LAW = "The timing of this robot's firmware is not known. "
   + "All times are computed with the firmware timing of the DeltaWalker.";
 const MOST_CYCLES = 20;
@@ -49,10 +49,11 @@ function headFields(store, list, request) {
   name.addEventListener("input", () => { isNamed = true; nameRefusal.setError(null); });
   cycles.addEventListener("input", () => cyclesRefusal.setError(null));
   return {
-    elements: [h("div", { class: "fast-head" }, labelled("Robot", robot, "The robot that the gait is made for"),
+    elements: [h("div", { class: "fast-head" },
+      labelled("Robot", robot, "The robot for which you make a gait"),
       labelled("Name", name, "The name of the new gait in the list", nameRefusal),
-      labelled("Cycles", cycles, "Number of cycles of the gait, which starts in the standard stance and "
-        + "ends at rest", cyclesRefusal)), law],
+      labelled("Cycles", cycles, "Number of cycles of the gait. The gait starts in the standard stance "
+        + "and ends at rest", cyclesRefusal)), law],
     /** Follows the request, but for a name that a person has typed. */
     follow({ robot: shown }, title) {
       robot.value = shown;

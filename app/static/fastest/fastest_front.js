@@ -8,7 +8,7 @@ const FRAME = { width: 620, height: 210, left: 44, right: 12, top: 12, bottom: 3
 const SIZE = 5;
 const DEGREES = 180 / Math.PI;
 const CAPTION = "Large marks are the Pareto-optimal gaits for speed, stability margin and stop bound. "
-  + "Small dots are the other tried gaits. Choose a large mark to use its values.";
+  + "Small dots are the other gaits that the search has tried. Choose a large mark to use its values.";
 
 /** Outlines of the marks, by the place of their stop bound. */
 const OUTLINES = [

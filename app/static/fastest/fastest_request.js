@@ -13,12 +13,15 @@ const FIRST = {
 
 /** What the chosen gait would be, in a sentence. */
 function outcomeText(option, title, isLooking) {
-  if (!option?.price) return `${title}: ${option?.sentence || (isLooking ? "the speed is being computed." : "the speed is not known.")}`;
+  const unknown = isLooking ? "the studio is computing the speed." : "the speed is not known.";
+  if (!option?.price) return `${title}: ${option?.sentence || unknown}`;
   const { price } = option;
   if (price.pace === null) return `${title}: no gait with these values keeps all limits.`;
-  const cycle = price.on_the_spot ? `turns ${degrees(Math.abs(price.turn), 1)}°` : `goes ${mm(price.step)} mm`;
-  return `${title}: ${speedText(price)} in mid-walk. One cycle ${cycle} in ${price.moves} moves and `
-    + `${fixed(price.seconds, 1)} s. The whole gait is slower, because its first and last steps are shorter.`;
+  const cycle = price.on_the_spot ? `turns ${degrees(Math.abs(price.turn), 1)}°`
+    : `walks ${mm(price.step)} mm`;
+  return `${title}: ${speedText(price)} in mid-walk. In one cycle of ${price.moves} moves and `
+    + `${fixed(price.seconds, 1)} s, the robot ${cycle}. `
+    + "The whole gait is slower, because its first and last steps are shorter.";
 }
 
 /**

@@ -77,7 +77,7 @@ function sentenceOf(job) {
   if (jobIsOn(job)) return `${sentence}${fastest}`;
   if (state !== "done") return `The last search: ${sentence}${fastest}`;
   const scope = result.complete ? "every foot order" : `only some of the ${result.orders} foot orders`;
-  return `Tried ${scope}: ${sentence}${fastest}`;
+  return `The search tried ${scope}. ${sentence}${fastest}`;
 }
 
 /**
@@ -125,7 +125,8 @@ export function searchPart(store, { request, nameOf, use }) {
     job = shownJob(state, request().robot, picked);
     const isOn = Boolean(job) && jobIsOn(job);
     setAllowed(start, isOn ? "A search is running. Wait until the search ends, or cancel the "
-      + "search." : null, "Tries every foot order and direction, with the other values as chosen above");
+      + "search." : null, "Tries every foot order and direction. "
+      + "The search uses the other values that you have chosen above");
     // What has the focus is not taken away with it.
     if (!isOn && document.activeElement === cancel) start.focus();
     progress.hidden = !isOn;

@@ -36,17 +36,18 @@ export function courseText({ course, turn }) {
 }
 
 const millimetres = (value) => `${mm(value, 0)} mm`;
-const STOP = "Longest time until the robot hears Stop. The robot hears Stop only between moves";
+const STOP = "Longest time from a press on Stop until the robot reacts. "
+  + "The robot reacts to Stop only between two moves";
 const MARGIN = "Least distance between the centre of mass and the edge of the support polygon, during "
   + "every move";
 const SWAY = "How far the body may turn to the left and right of its course. "
   + "When the body sways, the soles of the "
-  + "feet turn on the ground. Gaits with sway were not tested with flat shoes yet";
+  + "feet turn on the ground. Gaits with sway have not been tested with flat shoes yet";
 
 /** The options: what each is called, what it means, and its values in words. */
 export const GROUPS = [
-  { group: "course", label: "Course", help: "Straight, a curve, or a turn on the spot. "
-    + "The angle of a curve is the turn in one cycle", text: courseText },
+  { group: "course", label: "Course", help: "The robot walks straight, walks a curve, or turns on the spot. "
+    + "The angle of a curve is the turn of the robot in one cycle", text: courseText },
   { group: "order", label: "Foot order", help: "The order in which the feet step, and the direction in "
     + "which the robot walks" },
   { group: "stop_bound", label: "Stop bound", help: STOP, text: (value) => `${fixed(value, 1)} s` },

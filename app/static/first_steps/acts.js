@@ -10,7 +10,7 @@ import { openView } from "../timeline/views.js";
 /** A drawn gait of the program, for which remedies are looked for. */
 const DRAWN = "walk";
 const REAL = "This studio drives a real robot. "
-  + "To try without the real robot, start the studio with --robot emulator.";
+  + "To try this exercise with an emulated robot, start the studio with the option --robot emulator.";
 const STEP_LABEL = /^(Step|Goal) to /;
 
 /** Whether a gait is drawn: not for the robot's clock, nor made of segments or parts. Only such gaits get remedies. */
@@ -59,7 +59,7 @@ export const ACTS = [
       + "The plan and the robot in 3D change while you drag.",
   },
   {
-    key: "remedy", title: "Ask for too long a step, then use a remedy", place: remedyPlace,
+    key: "remedy", title: "Make the step too long, then use a remedy", place: remedyPlace,
     sentence: ({ view }) => (view && isDrawn(view.document)
       ? "Set Step to 30 mm. No motion is possible with this step. "
         + "The page then shows remedies: changes that make a motion possible. "

@@ -12,7 +12,7 @@ import { planIsOn } from "../state/store.js";
 import { ACTS, showPlace, watchActs } from "./acts.js";
 
 const KEY = "first-steps";
-const ALL_DONE = "You have tried every step from a gait to the robot. "
+const ALL_DONE = "You have done all four exercises. "
   + "To see this card again, press ? and choose First steps.";
 
 /** Whether nothing was made in this data folder yet: no gait, no edit, no job and no run. */

@@ -11,19 +11,21 @@ import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { counted, fixed, mm } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const HELP = "Makes a gait with the same foot order and step, timed for the robot's firmware. "
-  + "First shows a comparison of both gaits";
+const HELP = "Searches for a gait with the same foot order and step, timed for the robot's firmware. "
+  + "You can compare both gaits before you use the new gait";
 const FREELY = "Changes this gait into a drawn gait with the same foot order and step. "
   + "You can then paint the timeline";
-const BROKEN_OFF = "The search stopped early. Try again when the studio answers.";
-const MORE = "The gait gains more speed with more iterations of the gait, a longer step or a longer stop bound.";
+const BROKEN_OFF = "The search stopped without a result. Try again when the studio is connected.";
+const MORE = "To gain more speed, set more iterations of the gait, a longer step or a longer stop bound.";
 const FEW = "This gait has fewer than three iterations. Its values in mid-walk (column “Now”) are the mean "
   + "over all iterations.";
-const USE = "Replaces the drawn gait with the gait for the robot's clock. Undo restores the drawn gait";
-const NEW = "Keeps the drawn gait, and saves the gait for the robot's clock as a new gait";
-const ABOUT = "is compared with a gait for the robot's clock, which is timed for the robot's firmware. "
+const USE = "Replaces the drawn gait with the gait in column “For the robot's clock”. "
+  + "Undo restores the drawn gait";
+const NEW = "Saves the gait in column “For the robot's clock” as a new gait. "
+  + "The drawn gait stays unchanged";
+const ABOUT = "with a gait for the robot's clock: a gait that is timed for the robot's firmware. "
   + "Both gaits have the same foot order and step. "
-  + "The gait for the robot's clock has few poses, and the motors move directly from pose to pose.";
+  + "The gait for the robot's clock has few poses. The motors move directly from pose to pose.";
 const DEGREES = 180 / Math.PI;
 /** Iterations from which a walk has some that are neither the first nor the last. */
 const MIDDLE = 3;
@@ -196,7 +198,7 @@ function ask(document, name, search) {
       () => { if (last.state === "running") fail(BROKEN_OFF); },
       (error) => fail(error instanceof ApiError ? error.message : BROKEN_OFF),
     );
-    const about = h("p", { class: "quiet", text: `“${name}” ${ABOUT}` });
+    const about = h("p", { class: "quiet", text: `This table compares “${name}” ${ABOUT}` });
     const content = [about, sides.element, line, notice, acts.element];
     const dialog = dialogFrame("Faster on the robot", close, () => take("use"), ...content);
     dialog.classList.add("faster");

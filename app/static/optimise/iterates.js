@@ -6,12 +6,16 @@ import { jobIsOn, jobOf } from "../shell/job_list.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { report } from "../lib/toasts.js";
 
+const HELP = "Shows the motion at this iteration of the optimiser, in 3D and in the plots. "
+  + "Iteration 0 is the motion from which the optimiser starts";
+
 /** Appends the slider to a section and keeps it current. */
 export function mountIterates(store, section) {
   const slider = h("input", { type: "range", id: "iteration", min: 0, step: 1, "aria-label": "Iteration" });
   const number = h("span", { class: "number" });
   const back = h("button", { text: "Back to the plan", hidden: true });
-  const row = h("div", { class: "iterates" }, h("label", { class: "quiet", for: "iteration", text: "Iteration", title: "Shows the motion at this iteration of the optimiser, in 3D and in the plots. Iteration 0 is the start" }), slider, number, back);
+  const label = h("label", { class: "quiet", for: "iteration", text: "Iteration", title: HELP });
+  const row = h("div", { class: "iterates" }, label, slider, number, back);
   const gone = h("p", { class: "why" });
   section.append(row, gone);
 

@@ -7,7 +7,7 @@ import { refusalOf } from "../lib/field_error.js";
 const MOST = 20_000;
 const MEANWHILE = "The notes were changed in another window while you were typing. "
   + "To keep your text, leave the field. "
-  + "To take the other text, press Escape.";
+  + "To use the text from the other window, press Escape.";
 
 function refusedNotes(text) {
   const { length } = [...text];

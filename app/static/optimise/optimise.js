@@ -126,12 +126,12 @@ function details({ solver, method, program, motion, trajectory }) {
 function ofResult(provenance, source, isEdited) {
   const { made, seconds, matches, at_hand: isHere } = provenance;
   const [when, title] = [clockTime(made), details(provenance)];
-  if (!matches || isEdited) return { text: `Optimised ${when}, but for another version of this gait. `
-    + `The result is out of date.`, title, tone: "caution" };
+  if (!matches || isEdited) return { text: `The result of Optimise (${when}) is for another version of `
+    + `this gait. The result is out of date.`, title, tone: "caution" };
   if (isHere) return { text: `Optimised ${when} in ${fixed(seconds * 1000, 0)} ms.`, title, tone: null };
-  if (source === "optimised") return { text: `Optimised ${when} in another studio. `
+  if (source === "optimised") return { text: `Another studio optimised this gait (${when}). `
     + `This studio computed the shown motion again.`, title, tone: null };
-  return { text: `Optimised ${when} in another studio. This studio does not have the result. `
+  return { text: `Another studio optimised this gait (${when}). This studio does not have the result. `
     + `Press Optimise to compute the result again.`, title, tone: "caution" };
 }
 

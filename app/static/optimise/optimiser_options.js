@@ -44,7 +44,8 @@ const SHARES = [
 ];
 
 const SAMPLE_TIME = {
-  label: "Sample time", name: "Sample time", unit: "s", min: 0.05, max: 5, step: 0.05, decimals: 3, help: "Time between two samples of the timeline. A smaller value makes the same drawing faster",
+  label: "Sample time", name: "Sample time", unit: "s", min: 0.05, max: 5, step: 0.05, decimals: 3,
+  help: "Time between two samples of the timeline. A smaller value makes the drawn gait faster",
   read: ({ timeline }) => timeline.sample_time, write: (document, value) => ({ ...document, timeline: { ...document.timeline, sample_time: value } }),
 };
 
@@ -63,12 +64,13 @@ const LIMITS = [
 
 const CHOICES = [
   { label: "Reach", name: "Workspace", options: [["stroke", "stroke"], ["cylinder", "cylinder"]],
-    help: "Where a foot can be (workspace). With “stroke”, a foot can be at every place that the motors "
-      + "reach. With “cylinder”, it stays in the simpler, smaller space of the published paper", ...word("workspace") },
+    help: "Workspace of each foot. With “stroke”, a foot can be at every place that the motors reach. "
+      + "With “cylinder”, a foot stays in a smaller cylinder, as in the DeltaWalker paper",
+    ...word("workspace") },
   { label: "Cost", name: "Cost", options: [["gentle", "gentle"], ["goal", "goal"], ["goal+effort", "effort"]],
-    help: "What the optimiser minimises. With “gentle”, it minimises the speeds, so that the body moves "
-      + "evenly. With “goal”, it minimises the distance to the goal at every sample. "
-      + "With “effort”, it also minimises the forces of the legs", ...word("cost") },
+    help: "The cost “gentle” minimises the speeds, so that the body moves evenly. "
+      + "“goal” minimises the distance to the goal at every sample. "
+      + "“effort” minimises this distance and the forces of the legs", ...word("cost") },
 ];
 
 const MORE_NUMBERS = [
@@ -80,7 +82,8 @@ const MORE_NUMBERS = [
   { label: "Motor acceleration", name: "Motor acceleration", unit: "mm/s²", min: 1, max: 1000, step: 5, decimals: 1, empty: "free", fallback: 100,
     help: "Largest acceleration of a motor. Leave empty for no limit", ...option("motor_acceleration", 1000) },
   { label: "Friction", name: "Friction", unit: "", min: 0.05, max: 2, step: 0.05, decimals: 2, empty: "free", fallback: 0.5,
-    help: "Friction coefficient between feet and ground. Leave empty for no limit", ...option("friction") },
+    help: "Friction coefficient between feet and ground. If the field is empty, the "
+      + "friction forces have no limit", ...option("friction") },
 ];
 
 const limit = (name) => ({
@@ -97,9 +100,14 @@ const POSE_CHOICES = [
 ];
 const DEGREES = 180 / Math.PI;
 const POSE_NUMBERS = [
-  { label: "Sway", name: "Sway", unit: "°", min: 0, max: 40, step: 1, decimals: 1, help: "How far the body may turn to the left and right of its course. Sway makes a gait faster, but the soles of the feet turn on the ground. Sway was not tested with flat shoes yet",
+  { label: "Sway", name: "Sway", unit: "°", min: 0, max: 40, step: 1, decimals: 1,
+    help: "How far the body may turn to the left and right of its course. Sway makes a gait faster, "
+      + "but the soles of the feet turn on the ground. Sway has not been tested with flat shoes yet",
     read: ({ poses }) => (poses ? (poses.sway ?? 0) * DEGREES : null), write: (document, value) => ({ ...document, poses: { ...document.poses, sway: value / DEGREES } }) },
-  { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2, help: "How far a standing foot may slide from its foothold during a move. A foot slides a little: all motors start and end a move together, so the foot leaves its exact path", ...limit("slip") },
+  { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2,
+    help: "How far a standing foot may slide from its foothold during a move. "
+      + "Standing feet slide a little, because all motors start and end each move together",
+    ...limit("slip") },
   { label: "Shoe distance", name: "Shoe distance", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 1, help: "Least distance between the centres of two feet. A shoe is 25 mm wide", ...limit("shoe_distance") },
   { label: "Arm distance", name: "Arm distance", unit: "mm", min: 0, max: 10, step: 0.5, decimals: 1, help: "Least distance between the arms of neighbouring legs. With 0 mm the arms may touch", ...limit("arm_distance") },
 ];
@@ -107,8 +115,8 @@ const POSE_NUMBERS = [
 const WITH_OVERLAP = 5;
 const OVERLAP = {
   label: "Swings", name: "Overlap", options: [["false", "apart"], ["true", "overlapping"]],
-  help: "With “overlapping”, a foot is lifted in the same move in which the foot before it is lowered. "
-    + "A cycle then has fewer moves and is faster, but fewer feet carry the body in these moves",
+  help: "With “overlapping”, the robot lifts a foot in the same move in which it lowers the previous foot. "
+    + "A cycle then has fewer moves and is faster. In these moves, fewer feet carry the body",
   read: ({ poses }) => String(poses?.overlap ?? false),
   write: (document, value) => ({ ...document, poses: { ...document.poses, overlap: value === "true" } }),
 };
@@ -132,7 +140,8 @@ const MORE_CHOICES = [
       + "The step of the gait does not change",
     read: ({ orientation }) => orientation, write: (document, value) => ({ ...document, orientation: value }) },
   { label: "Direction", name: "Direction", options: [1, 2, 3, 4].map((value) => [value, String(value)]),
-    help: "Turns the whole gait in quarter turns. Direction 1 is the gait as drawn", ...property("direction") },
+    help: "Turns the whole gait in steps of 90°. Direction 1 is the gait as drawn",
+    ...property("direction") },
   { label: "Ends", name: "Boundary", options: [["rest", "at rest"], ["periodic", "cycle"]],
     help: "Start and end of the gait (boundary). With “at rest”, the robot stands still at the start and "
       + "the end. With “cycle”, the end is like the start, so that the gait can repeat", ...word("boundary") },
@@ -202,15 +211,15 @@ export function optimiserOptions(store, edits, makeNew) {
 function refusal(feet, text, legs) {
   const odd = feet.find((foot, at) => foot < 1 || foot > legs || feet.indexOf(foot) !== at);
   if (odd !== undefined) return `“${text}” is not valid. Type feet from 1 to ${legs}, each foot at most `
-    + `once. Leave the field empty for no foot.`;
+    + `once. To hold up no foot, leave the field empty.`;
   return feet.length >= legs ? "The robot falls when all feet are up. Keep at least three feet down." : null;
 }
 
 function heldField(store, edits, end, words) {
   return textField(store, {
     label: words, name: `Held ${words.toLowerCase()}`,
-    help: `Feet that are held up at the ${end === "start" ? "first" : "last"} sample. `
-      + `These feet must swing at this sample on the timeline. Leave empty for no foot`,
+    help: `Feet that the robot holds up at the ${end === "start" ? "first" : "last"} sample. `
+      + `These feet must swing at this sample on the timeline. To hold up no foot, leave the field empty`,
     read: (document) => heldOf(document)[end].join(" "),
     commit(text) {
       const shown = edits.shown();

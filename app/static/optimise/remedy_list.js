@@ -12,15 +12,18 @@ function physicsWords({ kind, physics, caution }, isTrying) {
   if (!physics) return isTrying ? NO_PHYSICS : { text: caution, tone: "caution", title: null };
   if (physics.walks === null) return { text: "The simulation gave no result.", tone: "caution", title: physics.sentence };
   // What is likely to tip has proven that it does not; arms that touch still do.
-  if (physics.walks && caution && kind !== "no_margin") return { text: `Walks in the simulation. ${caution}`, tone: "caution", title: null };
-  return physics.walks ? { text: "Walks in the simulation.", tone: "good", title: null } : { text: "Does not walk in the simulation.", tone: "caution", title: physics.sentence };
+  if (physics.walks && caution && kind !== "no_margin") {
+    return { text: `The robot walks in the simulation. ${caution}`, tone: "caution", title: null };
+  }
+  if (physics.walks) return { text: "The robot walks in the simulation.", tone: "good", title: null };
+  return { text: "The robot does not walk in the simulation.", tone: "caution", title: physics.sentence };
 }
 
 /** A row for a remedy; `update` shows new results in place. */
 function row(remedy, { use, show, end }) {
   const { label, sentence, document, robot_seconds: robotSeconds } = remedy;
   const [margin, physics] = [h("span", { class: "number remedy-margin" }), h("span", {})];
-  const price = robotSeconds === null ? "" : ` Takes ${fixed(robotSeconds)} s on the robot.`;
+  const price = robotSeconds === null ? "" : ` Time on the robot: ${fixed(robotSeconds)} s.`;
   const button = h("button", { text: "Use this", "aria-label": `Use this: ${label}`, title: "Makes this change. Undo restores your drawing.", on: { click: () => use(document, label) } });
   const element = h("li", { class: "remedy", on: { pointerenter: () => show(document), pointerleave: end, focusin: () => show(document), focusout: end, keydown: ({ key }) => { if (key === "Escape") end(); } } },
     footfalls(document.timeline.feet), h("b", { text: label }), margin, h("p", { class: "quiet" }, `${sentence}${price} `, physics), button);

@@ -7,8 +7,8 @@ import { jobIsOn } from "../shell/job_list.js";
 import { stepTurn } from "../document/step.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const HELP = "Finds the shortest phases for this foot order and step that keep the limits of motors, "
-  + "stability margin and clearance";
+const HELP = "Finds the shortest phases for this foot order and step. "
+  + "The motion keeps the limits for motors, stability margin and clearance";
 
 /** The newest search of the selected gait, unless the gait has changed since. */
 function timingOf({ jobs, selected }) {
@@ -22,8 +22,8 @@ function whyNot(state) {
   const { view, pending } = state;
   if (!view) return "No gait is selected.";
   if (pending.length) return "The studio is still saving your last edit.";
-  if (view.document.poses) return "This is a gait for the robot's clock: "
-    + "the robot's firmware decides its timing.";
+  if (view.document.poses) return "The robot's firmware decides the timing of this gait. "
+    + "Fastest timing cannot change this timing.";
   if (view.document.segment_table) return "This gait is defined by its segment table. "
     + "To use Fastest timing, draw on the timeline first.";
   if (stepTurn(view.document) !== 0) return TURNS;
@@ -79,7 +79,7 @@ function onRobot({ seconds, robot_seconds: after }, { plan_seconds: planned, rob
 }
 
 const NO_WHOLE = "Each phase must last a whole number of samples. "
-  + "No shorter timing with whole samples was found that keeps all limits.";
+  + "The search found no shorter timing with whole samples that keeps all limits.";
 /** What to do where the timing itself does not help. */
 const INSTEAD = {
   faster: "Try “Faster on the robot”. It keeps the foot order and the step, and adapts the moves to the robot's firmware.",
@@ -112,7 +112,8 @@ function found({ result }, view, store, edits) {
   const button = h("button", { text: label, title: "Uses the phases and motor limits of this timing for "
     + "the gait, and starts Optimise",
     on: { click: attempt(() => use(usable, store, edits)) } });
-  return [bars, note, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `phases rounded to samples of ${fixed(usable.sample_time, 2)} s` }))];
+  const rounded = `Phases are rounded to whole samples of ${fixed(usable.sample_time, 2)} s.`;
+  return [bars, note, h("div", { class: "buttons" }, button, h("span", { class: "why", text: rounded }))];
 }
 
 /** The box with what the search found. */

@@ -231,7 +231,9 @@ def test_a_margin_below_the_robots_own_is_amber_until_physics_has_spoken(page: P
 def test_each_way_out_says_what_physics_makes_of_it(page: Page) -> None:
     choose(page, "S-Gait 10 mm")
     ways = ask_too_much(page)
-    expect(ways.get_by_role("listitem").first).to_contain_text("Walks in the simulation.", timeout=30_000)
+    expect(ways.get_by_role("listitem").first).to_contain_text(
+        "The robot walks in the simulation.", timeout=30_000
+    )
     page.get_by_role("button", name=re.compile("^Undo")).click()
     expect(ways).to_be_hidden()
 
@@ -245,7 +247,7 @@ def test_a_gait_that_tips_in_physics_is_offered_what_helps(page: Page) -> None:
     page.get_by_role("button", name="Simulate", exact=True).first.click()
     page.get_by_role("tab", name=re.compile("^Design")).click()
     first = page.get_by_role("group", name="What would help").get_by_role("listitem").first
-    expect(first).to_contain_text("Walks in the simulation.", timeout=60_000)
+    expect(first).to_contain_text("The robot walks in the simulation.", timeout=60_000)
     first.get_by_role("button").click()
     expect(page.get_by_role("group", name="What would help")).to_be_hidden()
 

@@ -81,10 +81,10 @@ def test_acts_tick_themselves_are_remembered_and_the_card_comes_back_from_help(p
 
 def test_a_remedy_is_found_by_way_of_a_drawn_gait(page: Page) -> None:
     open_by_help(page)
-    remedy = act(page, "Ask for too long a step")
-    remedy.get_by_role("button", name=re.compile("^Ask for too long a step")).click()
+    remedy = act(page, "Make the step too long")
+    remedy.get_by_role("button", name=re.compile("^Make the step too long")).click()
     expect(remedy).to_contain_text("under Examples, choose Walk 10 mm")
-    where = card(page).get_by_role("button", name=re.compile("^Show me where: Ask"))
+    where = card(page).get_by_role("button", name=re.compile("^Show me where: Make the step"))
     where.click()
     walk = page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Walk 10 mm(?!,)"))
     expect(walk).to_be_focused()

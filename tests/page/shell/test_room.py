@@ -42,7 +42,7 @@ def test_reason_and_ways_out_are_seen_without_scrolling(page: Page, size: tuple[
     step.press("Enter")
     why = page.get_by_role("region", name="Why the gait is infeasible")
     first = why.get_by_role("group", name="What would help").get_by_role("listitem").first
-    expect(first).to_contain_text("Walks in the simulation.", timeout=30_000)
+    expect(first).to_contain_text("The robot walks in the simulation.", timeout=30_000)
     page.locator("#sections").evaluate("panel => { panel.scrollTop = 0; }")
     panel = page.locator("#sections").bounding_box()
     assert panel is not None

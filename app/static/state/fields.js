@@ -155,12 +155,12 @@ function mountDragging(handle, input, change, field, current) {
 export function numberField(store, edits, field) {
   const input = h("input", {
     type: "number", step: "any", min: field.min, max: field.max, placeholder: field.empty ?? field.unsaid ?? null, data: field.unsaid ? { unsaid: "" } : {}, autocomplete: "off", "aria-label": field.name,
-    "aria-description": `${field.help}. ${field.min} to ${field.max} ${field.unit}`,
+    "aria-description": `${field.help}. Allowed: ${field.min} to ${field.max}${unitOf(field)}`,
   });
   const handle = h("span", { class: "name drag", text: field.label });
   const refusal = refusalOf(input);
   const limit = limitHint(store, field);
-  const title = `${field.help} (${field.min} to ${field.max} ${field.unit}). `
+  const title = `${field.help}. Allowed: ${field.min} to ${field.max}${unitOf(field)}. `
     + "Drag the name of the field to change the value";
   const element = h("label", { class: "field", title },
     handle, h("span", { class: "box", data: { unit: field.unit } }, input), limit.element, refusal.element);

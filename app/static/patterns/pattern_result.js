@@ -48,9 +48,9 @@ function longerSwings(state, explanation) {
   const needed = Math.max(...explanation.map((text) => Number(/swings? .*?at least (\d+) samples/.exec(text)?.[1] ?? 0)));
   const required = ruleOf(state, RULES.find(({ rule }) => rule === "least_swing")).value;
   return state.mode === "transition" && state.walkable && needed > required
-    ? [h("p", { class: "quiet", text: `The rule “Swing per limb, at least” requires ${required} samples. `
-      + `“Swings that the feet can do” requires at least ${needed} samples, because of the step lengths of `
-      + `these gaits.` })] : [];
+    ? [h("p", { class: "quiet", text: "By your rule “Swing per limb, at least”, each walking limb must "
+      + `swing in ${required} samples. “Swings that the feet can do” requires at least ${needed} samples, `
+      + "because of the step lengths of these gaits." })] : [];
 }
 
 function conflictBox(problem) {

@@ -103,7 +103,7 @@ function build({ name, step, of }) {
 
 /** What is shown instead of the gait's plan, in a few words. */
 function previewText({ iterate, preview, view, live, gesture, pending }) {
-  if (iterate?.pattern) return "Shown: the pattern, not the plan";
+  if (iterate?.pattern) return "Shown: the pattern, not the open gait";
   if (iterate) return "Shown: an iteration of the optimiser, not the plan";
   if (preview) return "Preview";
   if (view && (gesture || pending.length || (live && live.plan !== view.plan))) return "Edit under way";

@@ -25,6 +25,11 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
         yield opened
 
 
+def is_one_stop(page: Page, part: str) -> None:
+    """The items of a part become one stop a moment after they are drawn."""
+    wait_for(lambda: tab_stops(page, part) == 1, f"{part} is one stop, not {tab_stops(page, part)}")
+
+
 @pytest.mark.parametrize(
     "part",
     [
@@ -38,7 +43,7 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     ],
 )
 def test_a_part_is_one_stop(page: Page, part: str) -> None:
-    wait_for(lambda: tab_stops(page, part) == 1, f"{part} is one stop, not {tab_stops(page, part)}")
+    is_one_stop(page, part)
 
 
 def test_arrows_move_through_the_list_of_gaits_from_the_shown_one(page: Page) -> None:
@@ -50,7 +55,7 @@ def test_arrows_move_through_the_list_of_gaits_from_the_shown_one(page: Page) ->
     assert not before.startswith("Walk 10 mm")
     page.keyboard.press("ArrowDown")
     assert focused(page).startswith("Walk 10 mm")
-    assert tab_stops(page, "#gaits") == 1
+    is_one_stop(page, "#gaits")
     page.keyboard.press("Home")
     first = focused(page)
     page.keyboard.press("ArrowUp")
@@ -63,11 +68,11 @@ def test_arrows_move_through_the_list_of_gaits_from_the_shown_one(page: Page) ->
 def test_a_group_that_is_folded_or_searched_away_leaves_one_stop(page: Page) -> None:
     heading = page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^For this robot"))
     heading.click()
-    assert tab_stops(page, "#gaits") == 1
+    is_one_stop(page, "#gaits")
     heading.click()
     page.get_by_label("Find a gait").fill("amble")
     expect(page.locator("#gaits [data-gait=walk]")).to_have_count(0)
-    assert tab_stops(page, "#gaits") == 1
+    is_one_stop(page, "#gaits")
     page.get_by_label("Find a gait").fill("")
 
 
@@ -100,7 +105,7 @@ def test_jobs_and_the_segment_table_are_one_stop_each(page: Page, studio: Studio
         wait_for(partial(is_done, studio, job), "it is done")
     jobs = open_drawer(page, "Jobs")
     expect(jobs.locator(".job")).to_have_count(2)
-    assert tab_stops(page, "#jobs") == 1
+    is_one_stop(page, "#jobs")
     jobs.get_by_role("button", name="Walk 10 mm").focus()
     page.keyboard.press("ArrowUp")
     assert focused(page) == "Manual walk, v0"
@@ -109,8 +114,8 @@ def test_jobs_and_the_segment_table_are_one_stop_each(page: Page, studio: Studio
     page.get_by_role("list", name="Gaits").get_by_role("button", name="Manual walk, v0").first.click()
     page.get_by_role("tab", name="Segments").click()
     expect(page.get_by_role("grid", name="Segment table").get_by_role("row").first).to_be_visible()
-    assert tab_stops(page, "[role=grid][aria-label='Segment table']") == 1
-    assert tab_stops(page, "[role=toolbar][aria-label='Segment table']") == 1
+    is_one_stop(page, "[role=grid][aria-label='Segment table']")
+    is_one_stop(page, "[role=toolbar][aria-label='Segment table']")
 
 
 PARTS = "header, nav, #drawers, .stage, #verdict, .transport, #chart, #sections, .inspector-foot"

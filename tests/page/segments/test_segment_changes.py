@@ -37,7 +37,8 @@ def test_copies_go_to_other_cells_and_come_from_a_spreadsheet(page: Page, studio
     cell(page, 3, 3).click()
     cell(page, 5, 3).click(modifiers=["Shift"])
     page.keyboard.press("Control+c")
-    assert page.evaluate("() => navigator.clipboard.readText()") == "Lift A\nStep A\nZero A"
+    copied = "() => navigator.clipboard.readText()"
+    wait_for(lambda: page.evaluate(copied) == "Lift A\nStep A\nZero A", "the segments are copied")
     page.keyboard.press("Delete")
     wait_for(lambda: table(studio, gait)["feet"][2] == ["Push A", *["Wait A"] * 10], "the foot waits")
     cell(page, 8, 3).click()

@@ -305,11 +305,11 @@ def test_the_legend_is_of_the_iteration_looked_at_and_escape_leaves(page: Page) 
     page.get_by_role("button", name="Optimise", exact=True).click()
     slider = page.get_by_role("slider", name="Iteration")
     slider.wait_for()
+    note = page.get_by_role("status", name="Plan")
+    expect(note).to_contain_text("Optimised in")
     legend = page.locator(".curve-key")
     last = legend.text_content() or ""
     assert "violation" in last
-    note = page.get_by_role("status", name="Plan")
-    expect(note).to_contain_text("Optimised in")
     slider.press("Home")
     verdict = page.get_by_role("status", name="Verdict")
     expect(verdict).to_contain_text("optimiser iteration")

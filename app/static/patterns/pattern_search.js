@@ -12,6 +12,7 @@ import { attempt } from "../lib/toasts.js";
 const REST_MS = 250;
 /** After this time without news of a search the page polls it: an event is lost while the socket reconnects. */
 const SILENCE_MS = 3000;
+const GONE = "The studio was started again before this search had ended. Change a value to search again.";
 
 /** What of a gait's document the search for a gait of some limbs depends on: the gait that it makes is alike in all of it. */
 const aboutLimbs = ({ robot, orientation, direction, step, options, timeline }) => ({ robot, orientation, direction, travel: step.slice(0, 2), options, time: timeline.sample_time });
@@ -29,7 +30,10 @@ export function shownRows({ result, running, chosen }) {
  * @returns {{submit: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
  */
 export function mountSearch(store, problem, isOpen) {
-  let [newest, ended, since] = [0, 0, 0];
+  /** Numbers of the search asked for last (null until the studio has given it) and of the last that ended; when it began. */
+  let [asked, ended, since] = [0, 0, 0];
+  /** Events that came before the search had its number: some may be its own, others are of a search before it. */
+  let early = [];
   /** Numbers of the newest problem and of the one that the server searches. */
   let [latest, current] = [0, 0];
   /** The best pattern comes first. The others are requested once the problem has not changed for a moment. */
@@ -66,10 +70,12 @@ export function mountSearch(store, problem, isOpen) {
     return submitted.body !== submittedBody(body()) || documents().some((one, index) => one && submitted.documents[index] && one !== submitted.documents[index]);
   }
 
+  function hear(message) {
+    if (asked === null) early.push(message);
+    else if (message.id === asked && message.id !== ended) accept(message);
+  }
+
   function accept({ id, state, progress, result, sentence }) {
-    // An event may arrive before the response to the request that started its search.
-    if (id < newest || (state === "running" && id === ended)) return;
-    newest = id;
     if (state !== "running") ended = id;
     clearTimeout(silence);
     if (state === "running") {
@@ -87,16 +93,28 @@ export function mountSearch(store, problem, isOpen) {
     if (result?.status === "optimal" && problem.state.count > 1 && current === latest) timer = setTimeout(() => offer({ body: { ...sent, count: problem.state.count }, more: true, number: latest }), REST_MS);
   }
 
-  const poll = attempt(async (id) => { if (id === newest && id !== ended) accept(await api.pattern(id)); });
+  async function poll(id) {
+    if (id !== asked || id === ended) return;
+    try {
+      hear(await api.pattern(id));
+    } catch (error) {
+      if (error.status === 404) hear({ id, state: "failed", sentence: GONE });
+      else silence = setTimeout(poll, SILENCE_MS, id);
+    }
+  }
 
   const offer = latestOnly(async (what) => {
     isMore = Boolean(what.more);
     if (!isMore) [since, sent] = [what.since, what.body];
     current = what.number;
     clearTimeout(silence);
+    [asked, early] = [null, []];
     try {
-      accept(await api.patterns(what.body));
+      const answer = await api.patterns(what.body);
+      asked = answer.id;
+      [answer, ...early].forEach(hear);
     } catch (error) {
+      asked = 0;
       if (isMore) return;
       problem.set({ running: null, waiting: current !== latest, result: null, error: { sentence: error.message, where: error.where } });
     }
@@ -121,7 +139,7 @@ export function mountSearch(store, problem, isOpen) {
   problem.watch(problemParts, submit);
   problem.watch(({ documents: known }) => [known], () => { if (submitted) submitIfNew(); });
   store.watch(({ view, pending }) => [view?.id, view?.revision, pending.length], submitIfNew);
-  store.watch(({ pattern }) => [pattern], ({ pattern }) => { if (pattern) accept(pattern); });
+  store.watch(({ pattern }) => [pattern], ({ pattern }) => { if (pattern) hear(pattern); });
 
   const onRunning = (act) => attempt(async () => { if (problem.state.running) await act(problem.state.running.id); });
   return { submit: submitIfNew, cancel: onRunning(api.cancelPattern), useNow: onRunning(api.usePattern) };

@@ -38,7 +38,7 @@ def test_an_atlas_is_made_by_a_job(studio: StudioProcess) -> None:
 def test_a_run_tells_how_far_it_is_is_cancelled_and_goes_on(studio: StudioProcess) -> None:
     job = studio.ask("POST", "/api/atlases", {"name": "large", "count": MANY}).content["id"]
     second = studio.ask("POST", "/api/atlases", {"name": "other", "count": 10})
-    assert (second.status, "cancel it in Jobs" in second.content["error"]) == (409, True)
+    assert (second.status, "cancel the job in Jobs" in second.content["error"]) == (409, True)
     refused = studio.ask("DELETE", "/api/atlases/large")
     assert (refused.status, "Cancel it in Jobs" in refused.content["error"]) == (409, True)
     wait_for(lambda: job_of(studio, job)["done"] >= 400, "a chunk is done", 120.0)

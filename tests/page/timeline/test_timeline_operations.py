@@ -208,6 +208,16 @@ def test_without_a_selection_the_whole_timeline_is_meant(timeline: TimelinePage)
     assert timeline.document(gait)["direction"] == 2
 
 
+def test_the_menu_keeps_its_place_under_the_pointer(timeline: TimelinePage) -> None:
+    timeline.open("Menu")
+    first = timeline.item("Copy")
+    place = first.bounding_box()
+    for item in timeline.page.get_by_role("menu", name="Edit the timeline").get_by_role("menuitem").all():
+        item.hover()
+        assert first.bounding_box() == place, item.inner_text()
+    timeline.press("Escape")
+
+
 def test_repeating_the_whole_is_more_iterations(timeline: TimelinePage) -> None:
     drawn = tuple("1" * (5 + 10 * foot) + "0" * 5 + "1" * (35 - 10 * foot) for foot in range(4))
     gait = timeline.open("Iterations", drawn)
@@ -294,7 +304,7 @@ def test_a_copy_that_ends_with_the_timeline_is_cut_and_says_so(timeline: Timelin
     timeline.select((4, 17), (4, 21))
     timeline.press("Control+d")
     timeline.becomes(gait, *painted(FOUR, 4, 22, 24, "0"))
-    timeline.said("The last 2 samples do not fit into the timeline and will be left out.")
+    timeline.said("The last 2 samples of the result do not fit into the timeline and are cut off.")
     timeline.press("Control+d")
     timeline.said("so a copy does not fit")
 

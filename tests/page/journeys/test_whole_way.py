@@ -162,8 +162,8 @@ def test_stop_on_the_page_latches_until_it_is_cleared(
     wait_for(lambda: (studio.robot()["run"] or {}).get("reached", 0) > 2, "some waypoints are reached", 60)
     robot.change_speed(SLOW)
     edit_while_the_robot_moves(page)
-    robot.change_speed(SPEED)
     page.get_by_role("button", name="Stop", exact=True).click()
+    robot.change_speed(SPEED)  # not before: a quick run may have ended by then
     status = page.get_by_role("status", name="Robot")
     wait_for(lambda: studio.robot()["robot"] == "stopped", "the robot stands still")
     expect(status).to_contain_text(re.compile("stopped at .* by Ada", re.I))

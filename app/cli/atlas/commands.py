@@ -203,7 +203,7 @@ def _from_stance_words(opened: OpenedGait, walk: PoseGait) -> str:
 
 
 def _kept(atlas: AtlasFile) -> str:
-    """What the file has of a run that was interrupted, in sentences."""
+    """Says how many gaits the file keeps after an interruption, and how to go on."""
     gaits, simulated = sum(atlas.counts().values()), len(atlas.physics())
     physics = f", {simulated:,} of them with physics" if simulated else ""
     return f"{atlas.path} keeps the {gaits:,} gaits that it has{physics}. The same command goes on there."

@@ -30,9 +30,12 @@ export function shownRows({ result, running, chosen }) {
  * @returns {{submit: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
  */
 export function mountSearch(store, problem, isOpen) {
-  /** Numbers of the search asked for last (null until the studio has given it) and of the last that ended; when it began. */
+  /**
+   * Number of the newest search (null until the studio has given it), number of the search that ended last,
+   * and when the newest search began.
+   */
   let [asked, ended, since] = [0, 0, 0];
-  /** Events that came before the search had its number: some may be its own, others are of a search before it. */
+  /** Events that arrived before the newest search had its number. They may belong to an older search. */
   let early = [];
   /** Numbers of the newest problem and of the one that the server searches. */
   let [latest, current] = [0, 0];

@@ -144,7 +144,8 @@ function createFolds() {
 /** A group's heading, which folds it. */
 function heading(group, toggle) {
   const text = h("span", {});
-  const unit = h("span", { class: "unit", title: "Computed speed of the gait on the robot", text: SPEED_UNIT });
+  const title = "Computed speed of the gait on the robot";
+  const unit = h("span", { class: "unit", title, text: SPEED_UNIT });
   const button = h("button", { class: "group", on: { click: () => toggle(group) } }, text, unit);
   const level = group === EXAMPLES || AT_TOP.includes(group) ? null : { level: "inner" };
   const element = h("li", { class: "group-row", data: level ?? {} }, button);

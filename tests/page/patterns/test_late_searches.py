@@ -20,7 +20,7 @@ LONGER_THAN_A_REST_MS = 800
 
 
 class SlowSearches:
-    """The studio's searches, of which the page hears when it is told: first that one runs, then its answer.
+    """Searches of the studio; a test decides when the page hears that one runs, and when it gets the answer.
 
     Args:
         page: before it is opened.

@@ -23,6 +23,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from tests.support.chromium import SHELL, chromium_path
+from tests.support.process_defaults import COLOURS, default_environment
 from tests.support.soak import VARIABLE as SOAK
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -90,8 +91,9 @@ def main(words: list[str]) -> int:
 
 
 def environment() -> dict[str, str]:
-    """This one, but modules stay compiled: else each of a hundred processes compiles the program anew."""
-    return {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    """The default one with the chosen colours; pytest's Python itself starts with it."""
+    chosen = {name: os.environ[name] for name in COLOURS if name in os.environ}
+    return default_environment(os.environ) | chosen
 
 
 def install_chromium() -> None:

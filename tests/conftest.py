@@ -13,6 +13,7 @@ from playwright.sync_api import Browser, expect, sync_playwright
 from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.chromium import LONG_MS, WORDS, chromium_path
 from tests.support.patience import patient_robot
+from tests.support.process_defaults import restore_defaults
 from tests.support.studio_process import StudioProcess, running_studio, said_by_studios
 from tests.support.timeout import harden_timer
 
@@ -31,6 +32,12 @@ settings.load_profile("same")
 
 TIMER = pytest.StashKey[Callable[[], None]]()
 """Starts the timer of a test again."""
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_sessionstart() -> None:
+    """Makes the tests independent of how they were started, before any process of theirs starts."""
+    restore_defaults()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -11,6 +11,7 @@ import sys
 
 from tests.notebooks.listing import NAMES, path_of
 from tests.notebooks.running import NotebookError, executed, keep
+from tests.support.process_defaults import restore_defaults
 
 
 def main(names: list[str]) -> int:
@@ -19,6 +20,7 @@ def main(names: list[str]) -> int:
     if unknown:
         sys.stderr.write(f"No notebook has the name {unknown[0]}. There are: {', '.join(NAMES)}\n")
         return 2
+    restore_defaults()
     total = 0.0
     for name in NAMES:
         if names and name not in names:

@@ -19,6 +19,7 @@ from tests.pictures.main_path import FILM, SPEED, main_path
 from tests.pictures.sitting import DOCS, sitting
 from tests.support.chromium import LONG_MS, WORDS, chromium_path
 from tests.support.patience import patient_robot
+from tests.support.process_defaults import restore_defaults
 from tests.support.studio_process import StudioProcess, running_studio
 
 NAMES = (*STILLS, FILM)
@@ -32,6 +33,7 @@ def main(names: list[str]) -> int:
     if unknown:
         sys.stderr.write(f"No picture has the name {unknown[0]}. There are: {', '.join(NAMES)}\n")
         return 2
+    restore_defaults()
     expect.set_options(timeout=LONG_MS)
     chosen = [name for name in NAMES if name in names or not names]
     with sync_playwright() as playwright:

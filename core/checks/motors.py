@@ -11,7 +11,7 @@ from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.motion.speeds import motor_accelerations, motor_speeds
 from core.robot.model import RobotModel
 from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
-from core.wire.robot_time import ARRIVAL_THRESHOLD, deafness, largest_moves
+from core.wire.robot_time import ARRIVAL_THRESHOLD, ARRIVED, deafness, largest_moves
 from core.wire.waypoints import Waypoints
 
 DEAF_LIMIT = 2.5
@@ -136,7 +136,7 @@ def _still_waypoints(waypoints: Waypoints) -> tuple[list[int], float]:
         if distance <= TOLERANCE:
             continue
         smallest = min(smallest, distance)
-        if distance > ARRIVAL_THRESHOLD - TOLERANCE:
+        if distance > ARRIVED:
             here = waypoints.strokes[index]
         else:
             still.append(index)

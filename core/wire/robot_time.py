@@ -15,7 +15,7 @@ import numpy as np
 
 from core.arrays import Floats
 from core.wire.messages import THRESHOLD_MM
-from core.wire.waypoints import Waypoints
+from core.wire.waypoints import SAME, Waypoints
 
 RAMP_SPEED = 0.015
 """Largest speed of a ramp in m/s."""
@@ -37,6 +37,10 @@ START_MOVE = 0.003
 
 ARRIVAL_THRESHOLD = THRESHOLD_MM / 1000.0
 """Distance in m within which the firmware calls a motor arrived."""
+
+ARRIVED = ARRIVAL_THRESHOLD + SAME
+"""Planned moves up to here count as arrived, m: moves of just the threshold are common, as in waypoint files
+of whole millimetres."""
 
 NEARLY_AS_FAR = 0.7
 """A motor whose move is at least this share of the largest one may miss the threshold as well as that one."""
@@ -135,7 +139,7 @@ class TimeLaw:
         """
         distances = np.asarray(distance, dtype=np.float64)
         ramps = _ramp_times(distances) + self.second_ramp * self.second_share(distances, motors)
-        seconds = np.where(distances <= ARRIVAL_THRESHOLD, self.arrived, self.message + ramps)
+        seconds = np.where(distances <= ARRIVED, self.arrived, self.message + ramps)
         return seconds if isinstance(distance, np.ndarray) else float(seconds)
 
     def second_share(self, distance: Floats | float, motors: Floats | float = USUAL_MOTORS) -> Floats:
@@ -185,7 +189,7 @@ def move_estimates(waypoints: Waypoints, law: TimeLaw = PUBLISHED) -> Floats:
     here, moves = rows[0], np.zeros_like(rows)
     for number, there in enumerate(rows):
         moves[number] = np.abs(there - here)
-        if moves[number].max() > ARRIVAL_THRESHOLD:
+        if moves[number].max() > ARRIVED:
             here = there
     return law.move_seconds(moves.max(axis=1), far_motors(moves))
 

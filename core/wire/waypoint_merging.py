@@ -17,13 +17,16 @@ from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import heights_over_standing
 from core.robot.leg import foot_from_strokes
 from core.robot.model import RobotModel
-from core.wire.robot_time import ARRIVAL_THRESHOLD, PUBLISHED, far_motors
+from core.wire.robot_time import ARRIVED, PUBLISHED, far_motors
 from core.wire.waypoint_path import cut_parts, stays_near, waypoints_from_trajectory
-from core.wire.waypoints import Waypoints
+from core.wire.waypoints import SAME, Waypoints
 
 ON_GROUND = 0.00025
 """A foot no higher than this over the standing feet is on the ground, whatever its sample is called, m."""
-JUST_MOVES = math.nextafter(ARRIVAL_THRESHOLD, 1.0)
+SAME_SECONDS = 1e-5
+"""Of two ways whose times differ by less, the one found first is taken, s; `SAME` changes a time by less than
+1e-4 s."""
+JUST_MOVES = math.nextafter(ARRIVED, 1.0)
 """Shortest distance to which the firmware moves, m."""
 WIDEST_REACH = 120
 """Knots that one move replaces at most; a bound on the search."""
@@ -70,7 +73,7 @@ def robot_feet(model: RobotModel, strokes: Floats) -> Floats:
 def grounded(model: RobotModel, trajectory: Trajectory, strokes: Floats) -> Bools:
     """(n, legs) feet on the ground: those that stand by the plan, and those that touch it in their swing."""
     heights = heights_over_standing(robot_feet(model, strokes), trajectory.contact)
-    touching = np.nan_to_num(heights, nan=math.inf) <= ON_GROUND
+    touching = np.nan_to_num(heights, nan=math.inf) <= ON_GROUND + SAME
     return np.asarray(trajectory.contact | touching)
 
 
@@ -172,8 +175,11 @@ def needed_knots(feet_robot: Floats, contact: Bools) -> tuple[int, ...]:
     """Knots that no merging leaves out.
 
     Both ends; of each swing the last knot before it and the first after it, at which its foot stands; and
-    the knot between them at which it is highest over the standing feet. So of every time in which all feet
+    a knot between them at which it is highest over the standing feet. So of every time in which all feet
     stand, the first and the last pose remain, where a pause may end.
+
+    A foot is as high at every knot within `SAME` of the highest: at two knots where it rises and falls
+    evenly, at all where it is held up. One of them is enough: the first where none is needed anyway.
 
     Args:
         feet_robot: (n, legs, 3) feet in the robot's frame, m.
@@ -182,10 +188,15 @@ def needed_knots(feet_robot: Floats, contact: Bools) -> tuple[int, ...]:
     last = len(contact) - 1
     heights = heights_over_standing(feet_robot, contact)
     needed = {0, last}
+    tops = []
     for foot in range(contact.shape[1]):
         for first, end in stretches(np.asarray(~contact[:, foot])):
-            rises = np.nan_to_num(heights[first : end + 1, foot], nan=-math.inf)
-            needed |= {max(first - 1, 0), first + int(rises.argmax()), min(end + 1, last)}
+            needed |= {max(first - 1, 0), min(end + 1, last)}
+            # Where too few feet stand to know a height, the foot counts as low.
+            rises = np.nan_to_num(heights[first : end + 1, foot], nan=0.0)
+            start, stop = stretches(np.asarray(rises >= rises.max() - SAME))[0]
+            tops.append(range(first + start, first + stop + 1))
+    needed |= {top[0] for top in tops if needed.isdisjoint(top)}
     return tuple(sorted(needed))
 
 
@@ -219,7 +230,7 @@ def kept_knots(knots: Waypoints, contact: Bools, needed: Sequence[int], toleranc
 def _is_same(rows: Floats, first: int, last: int, tolerance: float) -> bool:
     """Whether every knot from one to another is within tolerance and threshold of the first."""
     farthest = float(np.abs(rows[first + 1 : last + 1] - rows[first]).max())
-    return farthest <= min(tolerance, ARRIVAL_THRESHOLD)
+    return farthest <= min(tolerance + SAME, ARRIVED)
 
 
 def _costs(moves: Floats) -> Floats:
@@ -247,7 +258,7 @@ def _quickest(rows: Floats, first: int, last: int, tolerance: float) -> list[int
             beyond += 1
         moves = np.abs(rows[first + start + 1 : first + beyond] - rows[first + start])
         for end, seconds in enumerate(best[start] + _costs(moves), start + 1):
-            if seconds < best[end] - 1e-9:
+            if seconds < best[end] - SAME_SECONDS:
                 best[end], come_from[end] = seconds, start
     way = [count - 1]
     while way[-1]:

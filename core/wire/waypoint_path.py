@@ -14,7 +14,7 @@ from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import real_strokes
 from core.robot.model import RobotModel
 from core.wire.robot_time import largest_moves, least_stop_bound, longest_move
-from core.wire.waypoints import Waypoints
+from core.wire.waypoints import SAME, Waypoints
 
 
 def waypoints_from_trajectory(model: RobotModel, trajectory: Trajectory) -> Waypoints:
@@ -40,9 +40,12 @@ def stays_near(rows: Floats, first: int, last: int, tolerance: float) -> bool:
     start = rows[first]
     way = rows[last] - start
     inner = rows[first + 1 : last] - start
-    fractions = np.clip(inner @ way / max(float(way @ way), 1e-18), 0.0, 1.0)
-    in_order = bool((np.diff(fractions) >= -1e-9).all())
-    return in_order and float(np.abs(inner - fractions[:, None] * way).max()) <= tolerance
+    length = float(np.linalg.norm(way))
+    # A way that ends where it begins has no direction.
+    direction = way / length if length > SAME else np.zeros_like(way)
+    along = np.clip(inner @ direction, 0.0, length)
+    in_order = bool((np.diff(along) >= -SAME).all())
+    return in_order and float(np.abs(inner - along[:, None] * direction).max()) <= tolerance + SAME
 
 
 def cut_parts(waypoints: Waypoints, bound: float) -> NDArray[np.int64]:
@@ -66,4 +69,4 @@ def cut_parts(waypoints: Waypoints, bound: float) -> NDArray[np.int64]:
             "--stop-bound",
         )
     moves = np.concatenate([[0.0], largest_moves(waypoints)])
-    return np.maximum(1, np.ceil(moves / longest_move(bound) - 1e-9).astype(np.int64))
+    return np.maximum(1, np.ceil((moves - SAME) / longest_move(bound)).astype(np.int64))

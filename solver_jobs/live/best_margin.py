@@ -10,7 +10,7 @@ from core.problem.motion_problem import MotionProblem
 from solver_jobs.live.assembly import TOLERANCE_MM, cost_terms, inner_rows, natural_linearisation
 from solver_jobs.live.elastic import COST_WEIGHT
 from solver_jobs.live.linearisation import MM
-from solver_jobs.live.qp import MOST_ELASTIC_ITERATIONS, QuadraticProgram, Solver, stacked
+from solver_jobs.live.qp import QuadraticProgram, Solver, stacked
 from solver_jobs.live.rows import Rows
 from solver_jobs.nlp.constraint import Family
 
@@ -43,7 +43,7 @@ def best_margin(problem: MotionProblem, sides: int) -> float | None:
         *stacked([kept for kept, _ in split]),
         np.append(np.full(lack, -np.inf), 0.0),
     )
-    answer = _solver.solve(qp, MOST_ELASTIC_ITERATIONS)
+    answer = _solver.solve_flat(qp)
     margin = problem.limits.margin - float(answer.x[lack]) / MM
     return margin if answer.solved and margin >= 0.0 else None
 

@@ -9,7 +9,7 @@ import numpy as np
 from core.arrays import Floats
 from solver_jobs.live.assembly import cost_terms
 from solver_jobs.live.linearisation import Linearisation, ranges
-from solver_jobs.live.qp import MOST_ELASTIC_ITERATIONS, QpResult, QuadraticProgram, Solver, stacked
+from solver_jobs.live.qp import QpResult, QuadraticProgram, Solver, stacked
 from solver_jobs.live.rows import NOBODY, Rows
 from solver_jobs.nlp.constraint import Family
 
@@ -53,7 +53,7 @@ def nearest(solver: Solver, linearisation: Linearisation, rows: Sequence[Rows]) 
     """
     size = linearisation.size
     qp, offsets = _elastic(cost_terms(linearisation), rows, float(linearisation.intervals.mean()))
-    answer = solver.solve(qp, MOST_ELASTIC_ITERATIONS)
+    answer = solver.solve_flat(qp)
     if not answer.solved:
         return None
     misses = np.maximum(answer.x[size:], 0.0)

@@ -21,6 +21,9 @@ from solver_jobs.results.motion import Evidence, Lack
 NOTABLE = 0.005
 """Misses (mm, mm/s) that are worth a sentence."""
 
+DECIMALS = 2
+"""Decimals to which misses (mm, mm/s) are compared and shown: solvers agree to 0.0004 mm only."""
+
 MOST_LACKS = 6
 """Sentences that a person reads."""
 
@@ -45,13 +48,27 @@ def lacks_of(
         excess = one.excess(x)
         for group in np.nonzero(amounts > NOTABLE)[0]:
             members = np.nonzero(one.group == group)[0]
-            member = int(members[excess[members].argmax()])
+            member = int(members[np.round(excess[members], DECIMALS).argmax()])
             knot, amount = int(one.knot[member]), float(amounts[group])
             feet = tuple(int(f) for f in one.feet[member] if f != NOBODY)
             key = (one.family.value, int(first[knot]), feet)
-            if key not in worst or amount > worst[key].amount:
+            if key not in worst or _shown(amount) > _shown(worst[key].amount):
                 worst[key] = Lack(key[0], amount, one.unit, key[1], int(last[knot]), feet, "")
-    return tuple(sorted(worst.values(), key=lambda lack: -lack.amount)[:MOST_LACKS])
+    return tuple(sorted(worst.values(), key=_rank)[:MOST_LACKS])
+
+
+def _rank(lack: Lack) -> tuple[float, int, tuple[int, ...], str]:
+    """The largest amount first; of those that read the same the earliest, then by feet and family."""
+    return -_shown(lack.amount), lack.first, lack.feet, lack.family
+
+
+def _shown(amount: float) -> float:
+    """An amount as a sentence shows it."""
+    return float(_amount_text(amount))
+
+
+def _amount_text(amount: float) -> str:
+    return f"{amount:.{DECIMALS}f}" if amount < 1 else f"{amount:.1f}"
 
 
 def phase_bounds(contact: Bools) -> tuple[Indices, Indices]:
@@ -101,7 +118,7 @@ def _sentence(problem: MotionProblem, contact: Bools, lack: Lack) -> str:
     floating = tuple(int(foot) + 1 for foot in np.nonzero(~contact[lack.first])[0])
     phase = f"with {feet_words(floating)} in the air" if floating else "with every foot down"
     where = f"{phase} ({knot_ranges(tuple(range(lack.first, lack.last + 1)))})"
-    size = f"{lack.amount:.2f}" if lack.amount < 1 else f"{lack.amount:.1f}"
+    size = _amount_text(lack.amount)
     whose = f"foot {lack.feet[0] + 1}" if lack.feet else "the body"
     limits = problem.limits
     ends = sorted({foot + 1 for foot in lack.feet})

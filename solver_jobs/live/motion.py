@@ -11,6 +11,10 @@ from core.problem.initial_guess import Indices, standing_forces
 from core.problem.motion_problem import GENTLE_FOOT_SHARE, Cost, MotionProblem
 from solver_jobs.live.linearisation import MM, Linearisation
 
+SHARE_DECIMALS = 6
+"""Decimals to which shares of the load are compared: at the edge of the support one is 0 but for rounding,
+and by symmetry two are equal."""
+
 
 def trajectory_of(linearisation: Linearisation, x: Floats) -> Trajectory:
     """The motion with forces: all forces of a knot are parallel, so that they turn nothing about the body.
@@ -73,7 +77,8 @@ def vertical_shares(feet_xy: Floats, contact: Bools, pressure: Floats) -> Floats
     rows[..., 1:] *= 10.0
     least = np.linalg.pinv(np.swapaxes(rows, 1, 2), rcond=1e-9)[..., 0]
     shares = np.where(contact, least, 0.0)
-    for knot in np.nonzero(((shares < 0) & contact).any(axis=1) & (contact.sum(axis=1) > 3))[0]:
+    pulls = (shares.round(SHARE_DECIMALS) < 0).any(axis=1)
+    for knot in np.nonzero(pulls & (contact.sum(axis=1) > 3))[0]:
         standing = np.nonzero(contact[knot])[0]
         shares[knot] = _three_feet(rows[knot], standing, shares[knot])
     return np.asarray(shares)
@@ -88,7 +93,7 @@ def _three_feet(rows: Floats, standing: Indices, otherwise: Floats) -> Floats:
         return otherwise
     triples = triples[regular]
     found = np.linalg.solve(systems[regular], np.broadcast_to([[1.0], [0.0], [0.0]], (len(triples), 3, 1)))
-    best = int(found[..., 0].min(axis=1).argmax())
+    best = int(found[..., 0].min(axis=1).round(SHARE_DECIMALS).argmax())
     shares = np.zeros_like(otherwise)
     shares[triples[best]] = found[best, :, 0]
     return shares

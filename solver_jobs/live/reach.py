@@ -16,6 +16,14 @@ from solver_jobs.nlp.constraint import Family
 DEEPEST = 0.98
 """Share of the links' length up to which a depth is where reach is made linear; it falls steeply beyond."""
 
+HOLE_SLACK = 1e-4
+"""A foot at most this far above where holes begin has none to keep out of, mm. The search with free heights
+presses feet to exactly that height, where rounding would decide whether a hole of no width takes 14 mm of
+their room. A stroke is below its limit by no more than this, a tenth of the checker's tolerance."""
+
+BOUND_DECIMALS = 6
+"""Decimals to which bounds of reach are compared, mm."""
+
 TOP_STEP = 0.01
 """Heights that are tried for the top of reach, mm."""
 
@@ -74,7 +82,7 @@ def _stroke_bounds(
     link = model.leg.link_length * MM
     deep = below + model.stroke.upper * MM
     far = link**2 - deep**2
-    near = link**2 - (below + model.stroke.lower * MM) ** 2
+    near = link**2 - (below + model.stroke.lower * MM - HOLE_SLACK) ** 2
     radius, hole = np.sqrt(np.maximum(far, 0.0)), np.sqrt(np.maximum(near, 0.0))
     slope = np.zeros_like(radius)
     if linearisation.vertical is not None:
@@ -110,7 +118,8 @@ def standing_reach(linearisation: Linearisation, reach: Reach) -> Rows:
         reach.bound[knots] - linearisation.known[0, knots, 1:] @ reach.directions.T,
         np.inf,
     )
-    foot = held.argmin(axis=1)
+    # Of feet that reach equally far the first is named.
+    foot = held.round(BOUND_DECIMALS).argmin(axis=1)
     most = np.take_along_axis(held, foot[:, None], axis=1)[:, 0]
     sides = len(reach.directions)
     group = np.repeat(np.arange(len(knots)), sides)

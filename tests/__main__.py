@@ -13,8 +13,10 @@ says what to install.
 
 from __future__ import annotations
 
+import fcntl
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -82,8 +84,12 @@ def main(words: list[str]) -> int:
     chosen = next((word for word in words if word in SIZES), "")
     size, more = SIZES[chosen], [word for word in words if word not in SIZES]
     given = environment() | dict(size.environment)
+    # Under `nohup`, a terminal that is closed must not end the studios of the tests either.
+    apart = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
     codes = [
-        subprocess.call([sys.executable, "-m", "pytest", *run, *more], cwd=PROJECT, env=given)
+        subprocess.call(
+            [sys.executable, "-m", "pytest", *run, *more], cwd=PROJECT, env=given, start_new_session=apart
+        )
         for run in size.runs
     ]
     failed = [code for code in codes if code not in (0, NOTHING_CHOSEN)]
@@ -102,10 +108,23 @@ def install_chromium() -> None:
     if apt is None or os.geteuid() != 0:
         return
     sys.stderr.write("Installing Chromium by apt-get …\n")
+    with open(apt, "rb") as program:
+        fcntl.flock(
+            program, fcntl.LOCK_EX
+        )  # a second copy of the tests waits until the first has installed it
+        if shutil.which(SHELL) is None:
+            _install(apt)
+
+
+def _install(apt: str) -> None:
+    # Another program that installs packages is waited for.
+    patient = ("-q", "-o", "DPkg::Lock::Timeout=600")
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
 
     def run(*words: str) -> bool:
-        done = subprocess.call([apt, "-q", *words], env=quiet, stdout=sys.stderr, stdin=subprocess.DEVNULL)
+        done = subprocess.call(
+            [apt, *patient, *words], env=quiet, stdout=sys.stderr, stdin=subprocess.DEVNULL
+        )
         return done == 0
 
     install = ("install", "-y", "--no-install-recommends")

@@ -25,9 +25,9 @@ json.dump(
         "umask": os.umask(0),
         "encoding": locale.getpreferredencoding(),
         "zone": time.timezone,
-        "odd": sorted(name for name in os.environ if name.endswith("_ODD") or name.startswith("LC_")),
+        "odd": sorted(name for name in sys.argv[1:] if name in os.environ),
         "home": os.access(os.path.expanduser("~"), os.W_OK),
-        "files": resource.getrlimit(resource.RLIMIT_NOFILE)[0],
+        "files": resource.getrlimit(resource.RLIMIT_NOFILE),
         "input": sys.stdin.read(),
     },
     sys.stdout,
@@ -50,17 +50,18 @@ os.execv(sys.executable, [sys.executable, "-m", "pytest", *sys.argv[1:]])
 ODD_ENVIRONMENT = {
     "HOME": "/nowhere",
     "LC_ALL": "C",
-    "PYTHON_ODD": "1",
-    "PYTHONUTF8": "0",
+    "PYTHONSAFEPATH": "1",
     "TZ": "Asia/Kathmandu",
-    "XDG_DATA_HOME_ODD": "/nowhere",
+    "XDG_DATA_HOME": "/nowhere",
 }
 
 
 def test_a_process_of_the_tests_has_default_signals_and_surroundings() -> None:
-    done = subprocess.run([sys.executable, "-c", REPORT], stdout=subprocess.PIPE, check=True)
+    command = [sys.executable, "-c", REPORT, *(ODD_ENVIRONMENT.keys() - {"HOME", "TZ"})]
+    done = subprocess.run(command, stdout=subprocess.PIPE, check=True)
     report: dict[str, Any] = json.loads(done.stdout)
-    assert report.pop("files") >= OPEN_FILES
+    files, most = (number % 2**64 for number in report.pop("files"))  # -1 is infinite
+    assert files >= min(OPEN_FILES, most)
     assert report == {
         "ignored": [],
         "interrupt": True,

@@ -10,6 +10,11 @@ from core.errors import InputError
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
+SAME = 1e-6
+"""Two lengths that differ by less are equal in every decision, m; speeds, m/s, as well. Motions are solved
+to 1e-9 m. Where a gait is symmetric or a foot is still, lengths are equal except for rounding, which differs
+from processor to processor; a bare comparison would lead to other waypoints or sentences on each."""
+
 
 def frozen_floats(values: ArrayLike, shape: Sequence[int | None], name: str) -> Floats:
     """Copies `values` into a read-only float array of the wanted shape.
@@ -56,6 +61,29 @@ def interpolated(times: Floats, knots: Floats, values: Floats) -> Floats:
     columns = values.reshape(len(knots), -1).T
     found = [np.interp(times, knots, column) for column in columns]
     return np.stack(found, axis=-1).reshape(len(times), *values.shape[1:])
+
+
+def first_lowest(values: Floats, within: float = SAME, axis: int | None = None) -> NDArray[np.intp]:
+    """Index of the first of the lowest values, which rounding does not change where several are equal.
+
+    Args:
+        values: any shape; nan is left out, and at least one value along the axis is a number.
+        within: values above the lowest by no more than this count as lowest, in the unit of `values`.
+        axis: along which the index counts; None for that into the flattened array.
+    """
+    lowest = np.nanmin(values, axis=axis, keepdims=True)
+    return np.asarray((values <= lowest + within).argmax(axis=axis))
+
+
+def first_highest(values: Floats, within: float = SAME, axis: int | None = None) -> NDArray[np.intp]:
+    """The same of the highest values."""
+    return first_lowest(-values, within, axis)
+
+
+def first_place(values: Floats, within: float = SAME) -> tuple[int, ...]:
+    """Index of the first of the highest values along every axis (see `first_lowest`)."""
+    flat = int(first_highest(values, within))
+    return tuple(int(index) for index in np.unravel_index(flat, values.shape))
 
 
 def stretches(flags: Bools) -> list[tuple[int, int]]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.fastest.search import Searched, travel_heading
 from core.library.library import order_name
-from core.pose_gaits.pace import pace_words
+from core.pose_gaits.pace import pace_rank, pace_words
 from core.pose_gaits.pose_problem import PoseProblem
 from solver_jobs import SearchStep, TriedGait
 
@@ -40,7 +40,7 @@ def search_lines(found: Searched) -> list[str]:
     scope = "every foot order" if found.choices.is_complete else f"some of {every:,} foot orders"
     scope = "the foot order" if every == 1 else scope
     lines = [f"Tried {scope}, {count} gaits that differ, in mid-walk:"]
-    for one in sorted(found.tried, key=lambda tried: -tried.pace):
+    for one in sorted(found.tried, key=lambda tried: pace_rank(tried.pace)):
         lines.append(f"  {_choice_words(one.problem):<38} {_outcome_words(one)}")
     if not found.front_count:
         return lines

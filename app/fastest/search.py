@@ -13,6 +13,7 @@ from core.gait.poses import Poses
 from core.pose_gaits.choices import Choice, Choices, choices
 from core.pose_gaits.front import MARGINS, STOP_BOUNDS, FrontPoint, front
 from core.pose_gaits.gait_poses import USUAL_STEP, with_pose_timeline
+from core.pose_gaits.pace import pace_rank
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import RobotModel
@@ -56,7 +57,7 @@ class Searched:
             for pair in zip(self.choices.tried, self.tried, strict=True)
             if pair[1].result.gait is not None
         ]
-        return sorted(pairs, key=lambda pair: -pair[1].pace)
+        return sorted(pairs, key=lambda pair: pace_rank(pair[1].pace))
 
 
 def searched(

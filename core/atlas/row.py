@@ -18,6 +18,8 @@ FIGURES = (
 """Figures of a row, in the order in which the hash takes them."""
 DECIMALS = 6
 """Figures are rounded to so many decimals, SI."""
+ACCURACY = 1e-4
+"""Share of itself by which a figure may differ when its gait is searched again, as on another processor."""
 
 
 class RowStatus(StrEnum):
@@ -65,11 +67,12 @@ class AtlasRow:
         return tuple(round(getattr(self, name), DECIMALS) + 0.0 for name in FIGURES)
 
     def agrees_with(self, other: "AtlasRow") -> bool:
-        """Whether both have the same status, and figures that differ by no more than rounding."""
+        """Whether both have the same status, and figures as near as a search is accurate."""
         if self.status is not other.status:
             return False
         return all(
-            (math.isnan(one) and math.isnan(two)) or abs(one - two) <= 1.5 * 10.0**-DECIMALS
+            (math.isnan(one) and math.isnan(two))
+            or math.isclose(one, two, rel_tol=ACCURACY, abs_tol=1.5 * 10.0**-DECIMALS)
             for one, two in zip(self.figures, other.figures, strict=True)
         )
 

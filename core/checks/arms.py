@@ -7,7 +7,7 @@ another, and it went on the real robot, whose arms are soft.
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats
+from core.arrays import SAME, Floats, first_lowest
 from core.checks.checked_plan import CheckedPlan, knot_place
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
 from core.robot.arms import ARM_GAP, arm_gaps
@@ -53,7 +53,7 @@ def least_arm_gap(model: RobotModel, waypoints: Waypoints) -> tuple[tuple[int, i
     if model.is_coupled:
         return None
     gaps, _ = _least_gaps(model, waypoints.strokes)
-    nearest = int(gaps.argmin())
+    nearest = int(first_lowest(gaps))
     if not np.isfinite(gaps[nearest]):
         return None
     first, second = sorted(neighbour_pairs(model.leg_count)[nearest].tolist())
@@ -66,7 +66,7 @@ def _least_gaps(model: RobotModel, strokes: Floats) -> tuple[Floats, NDArray[np.
     Between two waypoints a pair is followed only where its bars move far enough to come within `ARM_GAP`.
     """
     at = np.nan_to_num(arm_gaps(model, strokes), nan=np.inf)
-    least, moves = at.min(axis=0), at.argmin(axis=0)
+    least, moves = at.min(axis=0), first_lowest(at, axis=0)
     feet = foot_from_strokes(model.leg, strokes)
     ways = np.linalg.norm(np.diff(feet, axis=0), axis=-1)
     ways = np.maximum(np.nan_to_num(ways), np.abs(np.diff(strokes, axis=0)).max(axis=-1))
@@ -77,9 +77,9 @@ def _least_gaps(model: RobotModel, strokes: Floats) -> tuple[Floats, NDArray[np.
         between = strokes[doubtful] + share * (strokes[doubtful + 1] - strokes[doubtful])
         if len(between):
             gaps = np.nan_to_num(arm_gaps(model, between), nan=np.inf)
-            place = gaps.argmin(axis=0)
+            place = first_lowest(gaps, axis=0)
             lowest = gaps.min(axis=0)
-            moves = np.where(lowest < least, doubtful[place] + 1, moves)
+            moves = np.where(lowest < least - SAME, doubtful[place] + 1, moves)
             least = np.minimum(least, lowest)
     return least, moves.astype(np.int64)
 

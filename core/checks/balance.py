@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Bools, Floats, stretches
+from core.arrays import Bools, Floats, first_lowest, stretches
 from core.checks.checked_plan import CheckedPlan
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.motion.balance import STANDING_DEPTH, balance_margins
@@ -55,7 +55,7 @@ def _balance_outcome(
     reserve = max(BALANCE_RESERVE, asked)
     findings = []
     for first, last in _unbalanced_stretches(np.asarray(margins < reserve - TOLERANCE), contact):
-        worst = first + int(margins[first : last + 1].argmin())
+        worst = first + int(first_lowest(margins[first : last + 1]))
         span = f"({times[first]:.1f} to {times[last]:.1f} s)"
         place = {"sample": worst, "time": float(times[worst])}
         if not np.isfinite(margins[worst]):

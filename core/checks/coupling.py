@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats, stretches
+from core.arrays import Floats, first_highest, first_place, stretches
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
 from core.gait.manual_motion import stance_slip
 from core.motion.trajectory import Trajectory
@@ -58,7 +58,7 @@ def real_swings(model: RobotModel, trajectory: Trajectory) -> tuple[RealSwing, .
         for first, last in stretches(np.asarray(~t.contact[:, foot])):
             rises = heights[first : last + 1, foot]
             if not np.isnan(rises).all():
-                highest = first + int(np.nanargmax(rises))
+                highest = first + int(first_highest(rises))
                 found.append(RealSwing(foot, first, highest, float(heights[highest, foot])))
     return tuple(found)
 
@@ -89,7 +89,7 @@ def check_coupling(model: RobotModel, trajectory: Trajectory, lift_limit: float)
     dragged = [swing for swing in swings if swing.rise < lift_limit - TOLERANCE]
     findings = [_dragged(model, trajectory, swing, lift_limit) for swing in dragged]
     if largest > RESIDUAL_LIMIT:
-        sample, foot, actuator = (int(i) for i in np.unravel_index(int(residual.argmax()), residual.shape))
+        sample, foot, actuator = first_place(residual)
         words = (
             f"{model.actuator_count} motors cannot make {model.motor_count} strokes: that of motor "
             f"{actuator + 1} of foot {foot + 1} is {largest * 1000:.1f} mm off at sample {sample + 1}, where "

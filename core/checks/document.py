@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Floats, first_highest
 from core.checks.checked_plan import CheckedPlan, knot_place, plane_heights
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
 from core.gait.held_feet import feet_words
@@ -63,7 +63,7 @@ def check_height(plan: CheckedPlan, expected: tuple[float, float]) -> Outcome:
     """The body begins and ends as high as the document says; between them its height is the motion's own."""
     heights = plane_heights(plan)[[0, -1]]
     gaps = np.abs(heights - expected)
-    end = int(gaps.argmax())
+    end = int(first_highest(gaps))
     gap = float(gaps[end])
     margin = RuleMargin("height", HEIGHT_LIMIT - gap, "m")
     if gap <= HEIGHT_LIMIT + TOLERANCE:

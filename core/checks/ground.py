@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.arrays import Bools, Floats, stretches
+from core.arrays import Bools, Floats, first_highest, stretches
 from core.checks.checked_plan import CheckedPlan, knot_place
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.gait.manual_motion import stance_slip
@@ -23,7 +23,7 @@ def check_contact(plan: CheckedPlan) -> Outcome:
     findings = []
     for foot in range(t.leg_count):
         for first, last in stretches(np.asarray(gap[:, foot] > CONTACT_LIMIT + TOLERANCE)):
-            worst = first + int(gap[first : last + 1, foot].argmax())
+            worst = first + int(first_highest(gap[first : last + 1, foot]))
             should = "stand" if t.contact[worst, foot] else "swing"
             side = "above" if height[worst, foot] > 0 else "below"
             value = float(gap[worst, foot])
@@ -59,7 +59,7 @@ def _fastest_slides(feet_world: Floats, contact: Bools) -> Floats:
     """(legs,) knot before which each foot slides furthest from one knot to the next."""
     both = contact[1:] & contact[:-1]
     moves = np.linalg.norm(np.diff(feet_world[:, :, :2], axis=0), axis=-1) * both
-    return np.asarray(moves.argmax(axis=0) + 1, dtype=np.float64)
+    return np.asarray(first_highest(moves, axis=0) + 1, dtype=np.float64)
 
 
 def check_clearance(plan: CheckedPlan) -> Outcome:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Floats, first_highest, first_place
 from core.checks.checked_plan import CheckedPlan, knot_place
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.motion.speeds import motor_accelerations, motor_speeds
@@ -55,7 +55,7 @@ def check_deafness(waypoints: Waypoints, kept: Sequence[int] | None = None) -> O
     margin = RuleMargin("deafness", DEAF_LIMIT - seconds, "s")
     if seconds <= DEAF_LIMIT + TOLERANCE:
         return Outcome(margin)
-    number = int(largest_moves(waypoints).argmax()) + 1
+    number = int(first_highest(largest_moves(waypoints))) + 1
     words = (
         f"The move to waypoint {number + 1} keeps the robot from hearing Stop for {seconds:.1f} s; at most "
         f"{DEAF_LIMIT} s may be sent."
@@ -200,7 +200,7 @@ def acceleration_note(plan: CheckedPlan) -> str:
 
 def _worst(plan: CheckedPlan, values: Floats, unit: str) -> tuple[float, dict[str, Any], str]:
     """The largest of (n, legs, 3) values, its place, and what motor needs it, in words."""
-    sample, foot, actuator = (int(i) for i in np.unravel_index(int(values.argmax()), values.shape))
+    sample, foot, actuator = first_place(values)
     place = {**knot_place(plan, sample), "foot": foot, "actuator": actuator}
     value = float(values[sample, foot, actuator])
     motor = f"Motor {actuator + 1} of foot {foot + 1}"

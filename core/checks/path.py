@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats, stretches
-from core.findings import Outcome, RuleMargin, SendCost, Severity, found
+from core.arrays import Floats, first_highest, first_lowest, first_place, stretches
+from core.findings import TOLERANCE, Outcome, RuleMargin, SendCost, Severity, found
 from core.motion.trajectory import Trajectory
 from core.robot.model import RobotModel
 from core.wire.executed_path import ExecutedPath, executed_path
@@ -106,7 +106,7 @@ def _outcome(
     if worst is None:
         return Outcome(RuleMargin(name, None, "m"))
     margin = RuleMargin(name, worst.margin if np.isfinite(worst.margin) else None, "m")
-    slack = BALANCE_SLACK if rule is _balance else 0.0
+    slack = BALANCE_SLACK if rule is _balance else TOLERANCE
     if worst.margin >= -slack:
         return Outcome(margin)
     unmerged = rule(every)
@@ -141,7 +141,7 @@ def _fitting(rule: _Rule, slack: float, asked: tuple[RobotModel, Trajectory, Way
 def _balance(path: ExecutedPath) -> _Worst | None:
     tips = bool((path.propped_margins < -BALANCE_SLACK).any())
     margins = path.propped_margins if tips else path.margins
-    place = int(margins.argmin())
+    place = int(first_lowest(margins))
     value = float(margins[place])
     standing = ", ".join(str(foot + 1) for foot in np.nonzero(path.standing[place])[0])
     words = f"the centre of mass is {abs(value) * 1000:.2f} mm outside the support of feet {standing}"
@@ -155,7 +155,7 @@ def _balance(path: ExecutedPath) -> _Worst | None:
 
 def _ground(path: ExecutedPath) -> _Worst | None:
     gaps = np.where(path.standing, np.abs(np.nan_to_num(path.heights)), 0.0)
-    place, foot = (int(i) for i in np.unravel_index(int(gaps.argmax()), gaps.shape))
+    place, foot = first_place(gaps)
     gap = float(gaps[place, foot])
     words = (
         f"foot {foot + 1}, which should stand, is {gap * 1000:.2f} mm off the plane of the standing feet, "
@@ -172,11 +172,13 @@ def _clearance(path: ExecutedPath) -> _Worst | None:
             heights = path.heights[first : last + 1, foot]
             if not np.isnan(heights).all():
                 found += _swing(heights, first, foot, path)
-    return min(found, key=lambda worst: worst.margin, default=None)
+    if not found:
+        return None
+    return found[int(first_lowest(np.array([worst.margin for worst in found])))]
 
 
 def _swing(heights: Floats, first: int, foot: int, path: ExecutedPath) -> list[_Worst]:
-    top, low = first + int(np.nanargmax(heights)), first + int(np.nanargmin(heights))
+    top, low = first + int(first_highest(heights)), first + int(first_lowest(heights))
     rise, sink = float(np.nanmax(heights)), float(np.nanmin(heights))
     rises = f"foot {foot + 1} rises only {rise * 1000:.2f} mm, less than {RISE_LIMIT * 1000:.1f} mm"
     sinks = f"foot {foot + 1} is pressed {-sink * 1000:.2f} mm into the ground in its swing"

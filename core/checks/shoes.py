@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Floats, first_lowest
 from core.checks.checked_plan import CheckedPlan, knot_place
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
 from core.robot.model import RobotModel
@@ -48,9 +48,9 @@ def check_shoes(plan: CheckedPlan) -> list[Outcome]:
     moves, on_way = _distances_on_way(plan.model, plan.waypoints)
     nearest = []
     for pair in range(knots.shape[1]):
-        sample = int(knots[:, pair].argmin())
+        sample = int(first_lowest(knots[:, pair]))
         at_knot = float(knots[sample, pair])
-        worst = int(on_way[:, pair].argmin())
+        worst = int(first_lowest(on_way[:, pair]))
         if float(on_way[worst, pair]) >= at_knot - TOLERANCE:
             place = knot_place(plan, sample)
             where = f"At sample {sample + 1} ({place['time']:.1f} s)"
@@ -72,7 +72,7 @@ def check_shoes_of_waypoints(model: RobotModel, waypoints: Waypoints) -> list[Ou
     moves, on_way = _distances_on_way(model, waypoints)
     nearest = []
     for pair in range(on_way.shape[1]):
-        worst = int(on_way[:, pair].argmin())
+        worst = int(first_lowest(on_way[:, pair]))
         move = int(moves[worst])
         place = {"sample": move}
         nearest.append(_Nearest(float(on_way[worst, pair]), _move_words(move), place, MOVE_APART))

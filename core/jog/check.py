@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Floats, first_lowest, first_place
 from core.checks.balance import BALANCE_RESERVE, STROKE_BALANCE_SLACK
 from core.checks.ground import CLEARANCE_LIMIT
 from core.findings import Finding, Severity, found
@@ -128,7 +128,7 @@ def _out_of_range(model: RobotModel, start: Floats, made: Floats, steps: Sequenc
     """The motor that is asked for most beyond its range, and how far the last step could go."""
     lower, upper = model.stroke.lower, model.stroke.upper
     away = np.nan_to_num(np.maximum(lower - made, made - upper), nan=np.inf)
-    foot, motor = (int(i) for i in np.unravel_index(int(away.argmax()), away.shape))
+    foot, motor = first_place(away)
     value, last = float(made[foot, motor]), steps[-1]
     if np.isfinite(value):
         what = (
@@ -174,7 +174,7 @@ def _balance(model: RobotModel, way: Sequence[Floats], margins: Floats) -> list[
     """The least balance on the way; one that a step makes no worse blocks it not, or none could mend it."""
     if not way:
         return []
-    worst = 1 + int(margins[1:].argmin())
+    worst = 1 + int(first_lowest(margins[1:]))
     value, before = float(margins[worst]), float(margins[0])
     if value >= BALANCE_RESERVE or value >= before - WORSE > BALANCE_RESERVE:
         return []
@@ -203,7 +203,7 @@ def _coupling(
 ) -> list[Finding]:
     """What motors that share actuators lose, and whether a foot that is stepped really lifts."""
     off = np.abs(wanted - made)
-    foot, motor = (int(i) for i in np.unravel_index(int(off.argmax()), off.shape))
+    foot, motor = first_place(off)
     largest = float(off[foot, motor])
     lost = []
     if largest > NOTICED:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from core.arrays import Bools, Floats
+from core.arrays import Bools, Floats, first_lowest
 from core.errors import InputError
 from core.gait.gait import MOST_NAME, Gait, Orientation
 from core.gait.held_feet import HeldFeet
@@ -135,7 +135,7 @@ def shared_step(first: Gait, second: Gait, columns: Joined) -> tuple[float, floa
     carried = ~(columns.stance[:, 0] & columns.stance[:, -1])
     feet = np.nonzero(~carried if (~carried).any() else carried)[0]
     lengths = np.linalg.norm(sums[feet], axis=1)
-    dx, dy, yaw = sums[feet[int(lengths.argmin())]]
+    dx, dy, yaw = sums[feet[int(first_lowest(lengths))]]
     return (float(dx), float(dy), float(yaw))
 
 

@@ -22,6 +22,8 @@ HANDING_OVER = 0.1
 """Time within which a foot that loses its load still counts as bearing, s."""
 SWING_REST = 0.2
 """Motors rest at least so long before and after each arrival, s; so a swing of one waypoint lasts too."""
+ON_GRID = 1e-9
+"""Times this near to a sample are at the sample, s."""
 AT_LIMIT = 0.98
 """A motor's force is at its limit from this share of it on."""
 
@@ -191,7 +193,8 @@ def _swing_loads(
     for foot in range(legs):
         for first, last in stretches(~problem.contact[: len(arrivals), foot]):
             ends = motion.times[arrivals[[first, last]]]
-            begin, end = np.searchsorted(motion.times, ends + [-SWING_REST, SWING_REST])
+            rest = SWING_REST + ON_GRID
+            begin, end = np.searchsorted(motion.times, ends + [-rest, rest])
             share = float(carries[begin:end, foot].mean())
             if share > shares[foot]:
                 shares[foot], middles[foot] = share, ends.mean()
@@ -211,7 +214,7 @@ def _smallest_margin(motion: SimulatedMotion) -> tuple[float | None, float | Non
 
 def _within(flags: Bools, times: Floats) -> Bools:
     """(n, legs) whether a flag is up at any time within `HANDING_OVER`, before or after."""
-    first = np.searchsorted(times, times - HANDING_OVER - 1e-9)
-    after = np.searchsorted(times, times + HANDING_OVER + 1e-9)
+    first = np.searchsorted(times, times - HANDING_OVER - ON_GRID)
+    after = np.searchsorted(times, times + HANDING_OVER + ON_GRID)
     count = np.concatenate([np.zeros_like(flags[:1], dtype=np.int64), np.cumsum(flags, axis=0)])
     return np.asarray(count[after] > count[first])

@@ -5,6 +5,15 @@ import math
 LEAST_SPEED = 5e-6
 """A body that is slower only turns, m/s; it would read as 0.00 mm/s."""
 
+PACE_DECIMALS = 7
+"""Decimals to which paces (m/s, rad/s) are ranked. Several starts and mirrored foot orders lead to one pace,
+equal to 1e-10."""
+
+
+def pace_rank(pace: float) -> float:
+    """What gaits are sorted by, the fastest first; of gaits that are as fast the order stays."""
+    return -round(pace, PACE_DECIMALS)
+
 
 def pace_words(pace: float, on_the_spot: bool) -> str:
     """The pace of a gait in words: 2.99 mm/s, or 5.90°/s.

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Floats, first_highest, first_lowest, first_place
 from core.pose_gaits.motion_in_move import SAMPLES, MotionInMove, motions_in_moves
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import MOST_TURN, REST_HEIGHT, SWING_SHARE, PoseProblem
@@ -183,7 +183,7 @@ def _move_findings(problem: PoseProblem, move: int, motion: MotionInMove) -> Ite
     near = bounds.shoe_distance - float(distances.min())
     if near > TOLERANCE:
         first, second = np.triu_indices(problem.model.leg_count, 1)
-        pair = int(distances.min(axis=0).argmin())
+        pair = int(first_lowest(distances.min(axis=0)))
         sentence = (
             f"Feet {first[pair] + 1} and {second[pair] + 1} come {{}} nearer to each other {where} than "
             f"{_mm(bounds.shoe_distance)}."
@@ -191,7 +191,7 @@ def _move_findings(problem: PoseProblem, move: int, motion: MotionInMove) -> Ite
         yield _finding("shoe distance", move, int(first[pair]), near, sentence)
     near = bounds.arm_distance - float(motion.arms.min())
     if bounds.arm_distance > 0.0 and near > TOLERANCE:
-        one, other = sorted(neighbour_pairs(problem.model.leg_count)[int(motion.arms.argmin())].tolist())
+        one, other = sorted(neighbour_pairs(problem.model.leg_count)[int(first_lowest(motion.arms))].tolist())
         sentence = (
             f"The arms of legs {one + 1} and {other + 1} come {{}} nearer to each other {where} than "
             f"{_mm(bounds.arm_distance)}."
@@ -219,13 +219,13 @@ def _stroke_findings(gait: PoseGait) -> Iterator[PoseFinding]:
     problem = gait.problem
     limits = problem.model.stroke
     over = np.maximum(limits.lower - gait.strokes, gait.strokes - limits.upper)
-    pose, foot, motor = np.unravel_index(int(over.argmax()), over.shape)
+    pose, foot, motor = first_place(over)
     if over.max() > POSE_TOLERANCE:
         sentence = f"Motor {motor + 1} of foot {foot + 1} is {{}} beyond its range at pose {pose + 1}."
-        yield _finding("stroke", None, int(foot), float(over.max()), sentence)
+        yield _finding("stroke", None, foot, float(over.max()), sentence)
     long = float(gait.moves.max()) - problem.largest_move
     if long > POSE_TOLERANCE:
-        move = int(gait.moves.argmax())
+        move = int(first_highest(gait.moves))
         sentence = (
             f"Move {move + 1} is {{}} longer than the {_mm(problem.largest_move)} that a stop bound of "
             f"{problem.bounds.stop_bound:g} s allows."

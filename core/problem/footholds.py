@@ -8,11 +8,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import SAME, Floats
 from core.motion.contact_timeline import Swing
 from core.problem.motion_problem import Boundary, MotionProblem
 
-LEVEL = 1e-9
+LEVEL = SAME
 """Feet below this, m, stand level. Feet that do not could push against each other to shift the torque, since
 friction has no limit in the model."""
 

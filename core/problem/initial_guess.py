@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Bools, Floats
+from core.arrays import Bools, Floats, first_highest
 from core.motion.contact_timeline import Swing
 from core.motion.support_polygon import GRAVITY
 from core.motion.trajectory import Trajectory
@@ -220,7 +220,7 @@ def _body(problem: MotionProblem, feet: Floats, contact: Bools) -> Floats:
         path[1:-1] = (path[:-2] + 2 * path[1:-1] + path[2:]) / 4
         for _ in range(2):
             lack = offsets - (normals @ path[..., None])[..., 0]
-            worst = lack.argmax(axis=1)
+            worst = first_highest(lack, axis=1)
             push = np.maximum(lack[knots, worst], 0.0)
             push[[0, -1]] = 0.0
             path += push[:, None] * normals[knots, worst]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import SAME, Floats
 from core.motion.contact_timeline import Swing
 from core.problem.motion_problem import MotionProblem
 
@@ -53,7 +53,8 @@ def _moving(rise: float, shares: Floats, foot_speed: float) -> slice:
     """The knots of a swing at which its foot rises or sinks: its first ones, or its last."""
     ordered = shares if rise > 0 else shares[::-1]
     way = np.cumsum(ordered) * foot_speed * SPEED_SHARE
-    count = min(max(int(np.searchsorted(way, abs(rise))) + 1, FEWEST_KNOTS), len(shares))
+    # Even knots and a round height often end the way exactly at a knot.
+    count = min(max(int(np.searchsorted(way, abs(rise) - SAME)) + 1, FEWEST_KNOTS), len(shares))
     return slice(0, count) if rise > 0 else slice(len(shares) - count, len(shares))
 
 

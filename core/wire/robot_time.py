@@ -13,9 +13,9 @@ from typing import overload
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import SAME, Floats
 from core.wire.messages import THRESHOLD_MM
-from core.wire.waypoints import SAME, Waypoints
+from core.wire.waypoints import Waypoints
 
 RAMP_SPEED = 0.015
 """Largest speed of a ramp in m/s."""

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.arrays import Bools, Floats, stretches
+from core.arrays import SAME, Bools, Floats, stretches
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import heights_over_standing
@@ -19,7 +19,7 @@ from core.robot.leg import foot_from_strokes
 from core.robot.model import RobotModel
 from core.wire.robot_time import ARRIVED, PUBLISHED, far_motors
 from core.wire.waypoint_path import cut_parts, stays_near, waypoints_from_trajectory
-from core.wire.waypoints import SAME, Waypoints
+from core.wire.waypoints import Waypoints
 
 ON_GROUND = 0.00025
 """A foot no higher than this over the standing feet is on the ground, whatever its sample is called, m."""

@@ -8,13 +8,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats
+from core.arrays import SAME, Floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import real_strokes
 from core.robot.model import RobotModel
 from core.wire.robot_time import largest_moves, least_stop_bound, longest_move
-from core.wire.waypoints import SAME, Waypoints
+from core.wire.waypoints import Waypoints
 
 
 def waypoints_from_trajectory(model: RobotModel, trajectory: Trajectory) -> Waypoints:

@@ -11,11 +11,6 @@ from core.errors import InputError
 MM_DECIMALS = 4
 """Decimals of a millimetre in files and on the wire (docs/firmware.md)."""
 
-SAME = 1e-6
-"""Two lengths that differ by less are equal in every decision about waypoints, m. Motions are solved to
-1e-9 m. Where a gait is symmetric or a foot is still, lengths are equal except for rounding, which differs
-from processor to processor; a bare comparison would choose other waypoints on each."""
-
 
 @dataclass(frozen=True, eq=False)
 class Waypoints:

@@ -14,6 +14,8 @@ MOST_ROWS = 160
 """Rows that a program has: those with the least room for how fast it changes."""
 MOST_PASSES = 8
 """Programs that are solved for a step: rows that the last one left out and missed take part in the next."""
+URGENCY_DECIMALS = 6
+"""Decimals to which rows are compared for that."""
 ACCURACY = 1e-5
 """A row that is missed by less counts as kept, mm."""
 PRESSES = 1e-6
@@ -103,7 +105,8 @@ class ConvexStep:
         self._hessian[:-2, :-2], self._gradient[:-2] = curvature, gradient
         self._lower[:-2], self._upper[:-2] = -farthest, farthest
         steepness = np.abs(slopes).sum(axis=1)
-        urgency = room / np.maximum(steepness, 1e-9)
+        # Symmetric gaits have equal rows; rounded, the same ones are chosen on every processor.
+        urgency = np.round(room / np.maximum(steepness, 1e-9), URGENCY_DECIMALS)
         pressures = np.zeros(len(room))
         for _ in range(MOST_PASSES):
             chosen = np.argpartition(urgency, self._rows - 1)[: self._rows]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import SAME, Floats, first_highest, first_lowest
 from core.robot.leg import foot_from_strokes, vertex_directions
 from core.robot.model import RobotModel
 from solver_jobs.atlas.layout import MM, Asked, Layout, rotations
@@ -123,8 +123,8 @@ class Postures:
         offset_slopes = (to_world @ np.linalg.inv(by_foot)) @ slopes
         wanted = poses.feet[:, :-1, None] - offset
         standing = ~layout.moving[None, :, None, :, None]
-        least = np.where(standing, wanted, np.inf).argmin(axis=3)
-        most = np.where(standing, wanted, -np.inf).argmax(axis=3)
+        least = first_lowest(np.where(standing, wanted, np.inf), SAME * MM, axis=3)
+        most = first_highest(np.where(standing, wanted, -np.inf), SAME * MM, axis=3)
         wanted_slopes = self.foot_map[:, :-1, None] - offset_slopes
         body = (_of_leg(wanted, least) + _of_leg(wanted, most)) / 2.0
         body_slopes = (_of_leg(wanted_slopes, least) + _of_leg(wanted_slopes, most)) / 2.0

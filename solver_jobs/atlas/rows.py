@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import SAME, Floats, first_lowest
 from core.pose_gaits.pose_problem import SWING_SHARE, PoseBounds
 from core.robot.arms import arm_bars, nearest_points
 from core.robot.shoes import neighbour_pairs
@@ -25,6 +25,8 @@ ARM_PLACES = (0, 1, 2)
 """Of `PLACES`, at which arms are looked at, besides the first pose of each move."""
 LIKELY_BARS = 24
 """Pairs of bars whose distances are computed, those whose shadows are nearest."""
+NEAR_DECIMALS = 6
+"""Decimals to which shadows are compared, mm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,10 +221,12 @@ def _gap(
     # Bars are at least as far apart as their shadows on the line between the modules.
     shadows = (flat * towards[:, None, None, None]).sum(axis=-1)
     near = shadows[:, 0].min(axis=-1)[:, :, None] - shadows[:, 1].max(axis=-1)[:, None]
-    likely = np.argpartition(near.reshape(count, -1), LIKELY_BARS, axis=1)[:, :LIKELY_BARS]
+    likely = np.argpartition(near.reshape(count, -1).round(NEAR_DECIMALS), LIKELY_BARS, axis=1)[
+        :, :LIKELY_BARS
+    ]
     one, other = np.divmod(likely, flat.shape[2])
     nearest = nearest_points(flat[index[:, None], 0, one], flat[index[:, None], 1, other])
-    best = nearest.distances.argmin(axis=1)
+    best = first_lowest(nearest.distances, SAME * MM, axis=1)
     points = nearest.first[index, best], nearest.second[index, best]
     chosen = one[index, best], other[index, best]
     between = points[0] - points[1]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Bools, Floats
+from core.arrays import SAME, Bools, Floats, first_highest
 from core.pose_gaits.pose_problem import SHORTEST_MOVE, PoseBounds
 from solver_jobs.atlas.convex_step import ConvexStep
 from solver_jobs.atlas.layout import MM, Asked, Layout
@@ -207,7 +207,7 @@ class Search:
         gaits = np.nonzero(chosen)[0]
         poses = Postures(self.layout, self.asked.of(gaits)).poses(found.unknowns[gaits])
         change, _ = self._changes(poses)
-        farthest = np.abs(change).argmax(axis=-1)[..., None]
+        farthest = first_highest(np.abs(change), SAME * MM, axis=-1)[..., None]
         signs = np.sign(np.take_along_axis(change, farthest, axis=-1))
         wanted = np.zeros((self.asked.count, *change.shape[1:]))
         made = np.zeros_like(change)
@@ -230,4 +230,4 @@ def _pressing(names: NDArray[np.str_], pressures: Floats) -> tuple[str, ...]:
     total: dict[str, float] = {}
     for place in np.nonzero(pressures > PRESSES)[0]:
         total[str(names[place])] = total.get(str(names[place]), 0.0) + float(pressures[place])
-    return tuple(sorted(total, key=lambda name: -total[name]))
+    return tuple(sorted(total, key=lambda name: -float(f"{total[name]:.3g}")))

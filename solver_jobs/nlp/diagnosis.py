@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Floats, first_place
 from core.robot.shoes import neighbour_pairs
 from solver_jobs.nlp.compiled_problem import CompiledProblem
 from solver_jobs.nlp.constraint import Family, RowConstraint, Situation
@@ -83,13 +83,18 @@ def shortfalls(
         excess = block.constraint.excess(block.of(rows), block.of(lower), block.of(upper))
         amount = float(excess.max())
         if amount > NOTABLE:
-            knots = tuple(int(k) for k in np.nonzero(excess.max(axis=1) >= amount / 2)[0])
-            worst, row = (int(i) for i in np.unravel_index(int(excess.argmax()), excess.shape))
+            knots = tuple(int(k) for k in np.nonzero(excess.max(axis=1) >= amount / 2 - NOTABLE)[0])
+            worst, row = first_place(excess, NOTABLE)
             feet = _feet_of_row(block.constraint, situation, worst, row)
             feet = tuple((foot + shift) % situation.contact.shape[1] for foot in feet)
             constraint = block.constraint
             found.append(Shortfall(constraint.family, amount, constraint.unit, knots, worst, feet))
-    return tuple(sorted(found, key=lambda shortfall: -shortfall.amount))
+    return tuple(sorted(found, key=_rank))
+
+
+def _rank(shortfall: Shortfall) -> tuple[float, int]:
+    """The largest first, as sentences show it; of equal ones the earlier."""
+    return -float(f"{shortfall.amount:.3g}"), shortfall.worst
 
 
 def _feet_of_row(constraint: RowConstraint, situation: Situation, knot: int, row: int) -> tuple[int, ...]:

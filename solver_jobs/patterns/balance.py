@@ -8,7 +8,7 @@ margin below nothing the body is that near to a place inside.
 """
 
 from dataclasses import dataclass
-from math import ceil, floor
+from math import floor
 
 import numpy as np
 from ortools.sat.python.cp_model import CpModel, IntVar, LinearExprT
@@ -24,6 +24,9 @@ SCALE = 10_000
 
 SIDES = 16
 """Of the polygon that stands for a disc."""
+
+ROUNDING = 1e-3
+"""Share of a unit that rounding may have taken, so that a whole number of units stays whole."""
 
 _ON_THE_LINE = 1e-9
 
@@ -68,9 +71,9 @@ class Balance:
         if balance is None or margin is None:
             raise ValueError("the problem asks for no balance")
         self._model = model
-        self._reach = floor(balance.reach / UNIT)
-        self._step = floor(balance.speed * problem.sample_time * SCALE * np.cos(np.pi / SIDES) / UNIT)
-        self._slack = floor(max(-margin, 0.0) / UNIT)
+        self._reach = _at_most(balance.reach / UNIT)
+        self._step = _at_most(balance.speed * problem.sample_time * SCALE * np.cos(np.pi / SIDES) / UNIT)
+        self._slack = _at_most(max(-margin, 0.0) / UNIT)
         furthest = balance.reach + max(-margin, 0.0)
         self._edges = _edges(balance.feet_xy, max(margin, 0.0), furthest)
         angles = np.arange(SIDES) * 2 * np.pi / SIDES
@@ -146,4 +149,9 @@ def _edge(left: Floats, least: float, reach: float, lifted: tuple[int, ...]) -> 
         return None
     x, y = round(SCALE * float(left[0])), round(SCALE * float(left[1]))
     lost = SCALE * float(np.abs(left - np.array([x, y]) / SCALE).sum()) * reach / UNIT
-    return Edge(x, y, ceil(least * SCALE / UNIT + lost), lifted, least <= reach)
+    return Edge(x, y, -_at_most(-(least * SCALE / UNIT + lost)), lifted, least <= reach)
+
+
+def _at_most(units: float) -> int:
+    """The whole units in a length; feet and margins are round numbers, so that it often is a whole number."""
+    return floor(units + ROUNDING)

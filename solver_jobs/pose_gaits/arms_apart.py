@@ -40,7 +40,7 @@ def fastest_apart(
         if best is not None and pace_of(program, attempt) < (1.0 + SAME_PACE) * pace_of(*best):
             break
         apart = _with_arms_apart(runs, program, attempt)
-        if apart is not None and (best is None or pace_of(*apart) > pace_of(*best)):
+        if apart is not None and (best is None or pace_of(*apart) > (1.0 + SAME_PACE) * pace_of(*best)):
             best = apart
     return best
 

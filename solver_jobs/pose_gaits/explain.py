@@ -19,6 +19,10 @@ NOTICED = 0.01
 """Slack below this is what rounding leaves, mm."""
 PRESSURE = 1e-3
 """Multipliers below this hold nothing back."""
+ALIKE = 1e-3
+"""Multipliers that differ by a smaller share are equal."""
+ROUNDING = 1e-3
+"""Share of the last decimal by which IPOPT may miss a round number."""
 LONGER_MOVES = 12.0
 """Moves are made longer by at most this to see whether that helps, mm."""
 
@@ -67,12 +71,17 @@ def _too_far(problem: PoseProblem, reach: float) -> str:
         asked, most = (np.degrees(way / LEVER) for way in (asked_reach(problem), reach))
         return (
             f"A turn of {asked:.4g}° a cycle (--turn) is too far: with these limits the farthest that was "
-            f"found is {np.floor(most * 10) / 10:.1f}°."
+            f"found is {_floored(most):.1f}°."
         )
     return (
         f"A step of {asked_reach(problem):.4g} mm a cycle (--step) is too long: with these limits the "
-        f"longest that was found is {np.floor(reach * 10) / 10:.1f} mm."
+        f"longest that was found is {_floored(reach):.1f} mm."
     )
+
+
+def _floored(value: float) -> float:
+    """A value that is still possible, to one decimal."""
+    return float(np.floor(value * 10 + ROUNDING) / 10)
 
 
 def arms_explained(gait: PoseGait) -> tuple[str, ...]:
@@ -110,17 +119,18 @@ def _loosened(problem: PoseProblem, name: str, slack: float) -> str:
     given = {"margin": bounds.margin, "clearance": bounds.clearance, "shoe distance": bounds.shoe_distance}
     if name in given:
         asked = given[name] * MM
-        possible = np.floor((asked - slack) * 10) / 10
+        possible = max(_floored(asked - slack), 0.0)
         words = _OPTIONS[name]
         return (
             f"{words[0].upper()}{words[1:]} is {asked:.4g} mm, {slack:.1f} mm too much; with "
             f"{possible:.1f} mm a gait was found."
         )
     longest = (problem.largest_move * MM + slack) / MM
+    seconds = np.ceil(deaf_seconds(longest) * 100 - ROUNDING) / 100
     return (
         f"The stop bound is {bounds.stop_bound:g} s (--stop-bound), which allows moves of "
-        f"{problem.largest_move * MM:.1f} mm; with {np.ceil(deaf_seconds(longest) * 100) / 100:.2f} s, which "
-        f"allows {longest * MM:.1f} mm, a gait was found."
+        f"{problem.largest_move * MM:.1f} mm; with {seconds:.2f} s, which allows {longest * MM:.1f} mm, a "
+        "gait was found."
     )
 
 
@@ -128,9 +138,11 @@ def _holding_back(program: PoseProgram, attempt: Attempt) -> str:
     """The limits with the largest multipliers, each with the foot and the move where it presses most."""
     strongest: dict[str, tuple[float, Row]] = {}
     for row, pressure in zip(program.program.rows, np.abs(attempt.pressures), strict=True):
-        if row.limit and pressure > max(PRESSURE, strongest.get(row.limit, (0.0, row))[0]):
+        # Of feet and moves that press alike the first is named.
+        least = (1.0 + ALIKE) * strongest.get(row.limit, (0.0, row))[0]
+        if row.limit and pressure > max(PRESSURE, least):
             strongest[row.limit] = (float(pressure), row)
-    ordered = sorted(strongest.items(), key=lambda item: -item[1][0])[:3]
+    ordered = sorted(strongest.items(), key=lambda item: -float(f"{item[1][0]:.2g}"))[:3]
     return ", ".join(_place(limit, row) for limit, (_, row) in ordered) or "no single limit"
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from core.arrays import SAME, first_highest
 from core.pose_gaits.pose_problem import SHORTEST_MOVE
 from core.pose_gaits.start_motion import MM
 from solver_jobs.pose_gaits.pose_program import PoseProgram
@@ -10,8 +11,6 @@ from solver_jobs.pose_gaits.runs import Forced, Runs, pace_of
 
 LENGTHENING_ITERATIONS = 60
 """IPOPT gets this many to make short moves long; where it needs more it stalls."""
-STALLED = 2.0
-"""It stalls too where its iterations take this many times as long as those that found the gait."""
 LENGTHENINGS = 3
 """Times that short moves are made long."""
 NEARLY_LONG = 0.02
@@ -36,14 +35,12 @@ def lengthened(runs: Runs, program: PoseProgram, best: Attempt) -> tuple[Attempt
             break
         runs.tell("Making short moves long", 0.7 + 0.03 * number)
         forced = (*forced, *short)
-        usual = best.seconds / max(best.iterations, 1) * LENGTHENING_ITERATIONS
         attempt = run(
             best.values,
             runs.weights,
             reach=runs.reach,
             forced=forced,
             most_iterations=LENGTHENING_ITERATIONS,
-            most_seconds=STALLED * usual,
         )
         if not attempt.converged or pace_of(program, attempt) < WORTH * pace_of(program, best):
             break
@@ -55,7 +52,7 @@ def _short_moves(program: PoseProgram, attempt: Attempt) -> Forced:
     """The largest motor of each move that is shorter than `SHORTEST_MOVE`."""
     strokes = program.gait(attempt.values).strokes.reshape(program.problem.move_count + 1, -1) * MM
     changes = np.diff(strokes, axis=0)
-    largest = np.abs(changes).argmax(axis=1)
+    largest = first_highest(np.abs(changes), SAME * MM, axis=1)
     return tuple(
         (move, int(motor), 1 if changes[move, motor] >= 0 else -1)
         for move, motor in enumerate(largest)

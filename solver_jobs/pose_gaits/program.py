@@ -145,7 +145,6 @@ class Program:
         row_bounds: tuple[Floats, Floats],
         keep_on: Callable[[], bool],
         most_iterations: int = MOST_ITERATIONS,
-        most_seconds: float = np.inf,
     ) -> Attempt:
         """Calls IPOPT once; a run that diverges is ended.
 
@@ -157,16 +156,12 @@ class Program:
             keep_on: asked now and then; false ends the run.
             most_iterations: a run that takes more is ended; iterations and not seconds, so that an answer
                 does not depend on what else the computer does.
-            most_seconds: the same; for runs whose iterations may stall.
         """
         if self._solver is None or self._monitor is None:
             raise RuntimeError("The program is not compiled.")
         begin, looks = time.perf_counter(), itertools.count(1)
         self._monitor.listener = lambda values, figures: (
-            keep_on()
-            and figures["inf_du"] < DIVERGED
-            and next(looks) * CHECK_EVERY < most_iterations
-            and time.perf_counter() - begin < most_seconds
+            keep_on() and figures["inf_du"] < DIVERGED and next(looks) * CHECK_EVERY < most_iterations
         )
         lower, upper = variable_bounds
         result = self._solver(

@@ -83,7 +83,6 @@ class Runs:
             forced: Forced = (),
             slack: Mapping[str, float] | None = None,
             most_iterations: int = MOST_ITERATIONS,
-            most_seconds: float = np.inf,
         ) -> Attempt:
             lower, upper = program.program.variable_bounds
             if reach is not None:
@@ -105,7 +104,6 @@ class Runs:
                 (row_lower, row_upper),
                 self._keep_on,
                 most_iterations,
-                most_seconds,
             )
             self.solve_seconds += attempt.seconds
             if attempt.status == "User_Requested_Stop":

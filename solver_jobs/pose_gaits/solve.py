@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import Floats
+from core.pose_gaits.pace import pace_rank
 from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
@@ -60,7 +61,7 @@ def solve_poses(
     cancelled = [result for result in results if result.status is SolveStatus.CANCELLED]
     solved = [result for result in results if result.gait is not None]
     failed = [result for result in results if result.status is SolveStatus.FAILED]
-    best = [*cancelled, *sorted(solved, key=_result_pace, reverse=True), *failed, results[-1]][0]
+    best = [*cancelled, *sorted(solved, key=_result_rank), *failed, results[-1]][0]
     if best.status is SolveStatus.INFEASIBLE and problem.pinned:
         results.append(_solved_without_pinned(problem, report, near))
         best = _pinned_answer(problem, best, results[-1])
@@ -93,8 +94,8 @@ def _pinned_answer(problem: PoseProblem, asked: PoseResult, without: PoseResult)
     return replace(asked, explanation=(sentence, NOT_PROVEN))
 
 
-def _result_pace(result: PoseResult) -> float:
-    return 0.0 if result.gait is None else result.gait.pace
+def _result_rank(result: PoseResult) -> float:
+    return 0.0 if result.gait is None else pace_rank(result.gait.pace)
 
 
 Longest = list[tuple[PoseProgram, Attempt]]
@@ -230,7 +231,7 @@ class _Search:
             attempt = run(start, FREE)
             if attempt.converged:
                 found.append(attempt)
-                found.sort(key=lambda one: -pace_of(program, one))
+                found.sort(key=lambda one: pace_rank(pace_of(program, one)))
                 self._runs.tell(
                     f"Solved, start {number + 1}", 0.1 + 0.2 * number, program.gait(found[0].values)
                 )

@@ -22,7 +22,7 @@ def arm_room(gait: Gait, model: RobotModel, motion: MotionResult) -> float:
         Below 0 where the check warns; inf where it has nothing to say.
     """
     least = _least(gait, model, motion)
-    return float("inf") if least is None else least[1] - ARM_GAP
+    return float("inf") if least is None else least[1] - (ARM_GAP - TOLERANCE)
 
 
 def arm_caution(gait: Gait, model: RobotModel, motion: MotionResult) -> str:
@@ -32,7 +32,7 @@ def arm_caution(gait: Gait, model: RobotModel, motion: MotionResult) -> str:
         return ""
     (first, second), gap = least
     names = f"The arms of legs {first + 1} and {second + 1}"
-    if gap < 0.0:
+    if gap < -TOLERANCE:
         return f"{names} touch: {-gap * 1000:.1f} mm in one another."
     return f"{names} come within {gap * 1000:.1f} mm of each other."
 

@@ -124,7 +124,8 @@ def rank(asked: Gait, model: RobotModel, remedy: Remedy) -> tuple[bool, bool, fl
     margin = asked.options.margin
     lost_margin = 0.0 if margin == 0 else max(0.0, 1.0 - gait.options.margin / margin)
     low = gait.options.margin < model.margin
-    return bool(remedy.caution), low, lost_way + lost_swings + lost_margin + 0.3 * _effort(asked, gait)
+    lost = lost_way + lost_swings + lost_margin + 0.3 * _effort(asked, gait)
+    return bool(remedy.caution), low, round(lost, 6)
 
 
 def _effort(asked: Gait, gait: Gait) -> float:

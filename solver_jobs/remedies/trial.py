@@ -112,7 +112,7 @@ class Trial:
         first, last = int(np.floor(least / unit + 1e-9)), int(np.ceil(most / unit - 1e-9))
 
         def value(number: int) -> float:
-            return most if number >= last else least if number <= first else number * unit
+            return most if number >= last else least if number <= first else round(number * unit, 9)
 
         # Invariant: `low` works or lies below the range; `high` fails or lies above it.
         low, high = first - 1, last + 1

@@ -151,7 +151,7 @@ class FrontierSearch:
         """The gait at every height, its own or the nearest first."""
         if not self.heights:
             yield gait
-        for height in sorted(self.heights, key=lambda h: abs(h - gait.options.plane_height)):
+        for height in sorted(self.heights, key=lambda h: (round(abs(h - gait.options.plane_height), 6), h)):
             yield gait.with_options(plane_height=height, end_plane_height=None)
 
     def _phase_lengths(self) -> Iterable[Gait]:

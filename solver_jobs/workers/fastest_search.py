@@ -8,6 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 
+from core.pose_gaits.pace import pace_rank
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from solver_jobs.results.motion import SolveStatus
@@ -104,7 +105,7 @@ class FastestSearch:
                 for answered in as_completed(numbers):
                     number = numbers[answered]
                     newest = tried[number] = TriedGait(problems[number], answered.result())
-                    fastest = fastest_of(list(tried.values()))
+                    fastest = fastest_of([tried[place] for place in sorted(tried)])
                     report(SearchStep(len(tried), len(problems), number, newest, fastest))
             except BaseException:
                 ending.set()
@@ -141,5 +142,5 @@ class FastestSearch:
 
 def fastest_of(tried: Sequence[TriedGait]) -> TriedGait | None:
     """The fastest gait that was found; None where there is none."""
-    best = max(tried, key=lambda one: one.pace, default=None)
+    best = min(tried, key=lambda one: pace_rank(one.pace), default=None)
     return best if best is not None and best.result.gait is not None else None

@@ -233,7 +233,7 @@ def test_each_way_out_says_what_physics_makes_of_it(page: Page) -> None:
     choose(page, "S-Gait 10 mm")
     ways = ask_too_much(page)
     expect(ways.get_by_role("listitem").first).to_contain_text(
-        "The robot walks in the simulation.", timeout=30_000
+        "The robot walks in the simulation.", timeout=120_000
     )
     page.get_by_role("button", name=re.compile("^Undo")).click()
     expect(ways).to_be_hidden()

@@ -29,7 +29,6 @@ from core.motion.speeds import foot_speeds, motor_speeds
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.conversion import conversion_refusal
 from core.pose_gaits.pose_gait import heard_times
-from core.problem.motion_problem import MotionLimits
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds, move_estimates, stop_time
 from core.wire.waypoint_merging import WaypointPlan
@@ -181,7 +180,7 @@ def plan_view(plan: Plan) -> Json:
         "stroke_limits_mm": [limits.lower * 1000, limits.upper * 1000],
         "foot_speeds_mm_s": None,
         "motor_speeds_mm_s": None,
-        "speed_limits_mm_s": {"foot": MotionLimits.foot_speed * 1000, "motor": limits.speed * 1000},
+        "motor_speed_limit_mm_s": limits.speed * 1000,
         "real_heights_mm": None,
         "slip": None if plan.slip is None else plan.slip.tolist(),
         "waypoints_hash": None,

@@ -118,9 +118,9 @@ function render(rows, key, state) {
   const most = [...overs.values()].reduce((longest, one) => (one.length > longest.length ? one : longest), []);
   // One legend is for all strips, so the plan has the same line in each of them.
   const view = { axis, across: acrossOf(axis, plan.times), count: plan.times.length, rules: rulesOf(axis, plan), grey, isUnder: most.length > 0 };
-  const { options } = previewedDocument(state);
+  const document = previewedDocument(state);
   for (const row of visible) {
-    const content = row.kind.of(plan, options);
+    const content = row.kind.of(plan, document);
     if (!content) {
       showSentence(row, row.kind.lack);
       continue;

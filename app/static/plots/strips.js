@@ -1,6 +1,7 @@
 /** Contents of the strip plots: series, limits, and the value at the playhead. */
 
 import { MOTORS, fixed } from "../lib/format.js";
+import { isDrawing } from "../state/live_plan.js";
 
 const known = (values) => values.filter((value) => value !== null && Number.isFinite(value));
 const columns = (rows, count, seriesOf) => (rows ? Array.from({ length: count(rows[0]) }, (_, at) => seriesOf(rows, at)) : null);
@@ -22,7 +23,18 @@ const heightsAt = ({ real_heights_mm: real, feet }, index) => real?.[index] ?? (
 const mmRequested = (value) => (value ? value * 1000 : null);
 
 /**
- * The strips in their order. `of(plan, options)` returns the content, or null for the reason `lack`. A content has
+ * The limit of the feet's speed, mm/s; null where a motion is not computed, so that none holds. For a sequence, the
+ * highest limit of its parts and of the steps between them.
+ */
+function footSpeedLimit({ parts }, document) {
+  const computed = document.sequence?.length ? document.sequence.map(({ gait }) => gait) : [document];
+  if (!computed.every(isDrawing)) return null;
+  if (parts?.some((part) => part.is_transition)) computed.push(document);
+  return Math.max(...computed.map(({ options }) => options.foot_speed)) * 1000;
+}
+
+/**
+ * The strips in their order. `of(plan, document)` returns the content, or null for the reason `lack`. A content has
  * `series` {foot, motor, valueAt(index)}, `low` and `high` (limits, null for none), `wanted` (requested by the gait),
  * `floor` and `most` (values that the scale always includes), `lanes` (each foot has its own row) and `rises` (feet at 0
  * are not drawn, and each rise has its foot's mark). `now(plan, index)` returns the text for a sample.
@@ -33,9 +45,9 @@ export const STRIPS = [
     lack: "No stability margin.",
     help: "Distance of the centre of mass from the edge of the support polygon, in mm. "
       + "Below 0, the robot tips",
-    of: (plan, options) => (plan.margin ? {
+    of: (plan, { options }) => (plan.margin ? {
       series: [{ foot: null, motor: null, valueAt: (index) => (plan.margin[index] === null ? null : plan.margin[index] * 1000) }],
-      low: 0, high: null, wanted: mmRequested(options?.margin), most: 1,
+      low: 0, high: null, wanted: mmRequested(options.margin), most: 1,
     } : null),
     now: ({ margin }, index) => ((margin?.[index] ?? null) === null ? "–" : `${fixed(margin[index] * 1000)} mm`),
     isBad: ({ margin }, index) => (margin?.[index] ?? 0) < 0,
@@ -62,8 +74,12 @@ export const STRIPS = [
   },
   {
     key: "foot_speeds", name: "Foot speeds", title: "Foot speed, mm/s", unit: "mm/s", shown: false, lack: "No feet.",
-    help: "Speed of each foot in mm/s. The optimiser keeps the speed below the limit line",
-    of: ({ foot_speeds_mm_s: speeds, speed_limits_mm_s: limits }) => (speeds ? { series: aFoot(speeds, (value) => value), low: null, high: limits.foot, floor: 0, rises: true } : null),
+    help: "Speed of each foot in mm/s. If there is a limit line, the optimiser keeps the speed below it",
+    of(plan, document) {
+      if (!plan.foot_speeds_mm_s) return null;
+      const series = aFoot(plan.foot_speeds_mm_s, (value) => value);
+      return { series, low: null, high: footSpeedLimit(plan, document), floor: 0, rises: true };
+    },
     now: ({ foot_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => at, "mm/s"),
   },
   {
@@ -71,8 +87,8 @@ export const STRIPS = [
     lack: "No strokes to plot, because the legs cannot reach the positions of this motion.",
     help: "Speed of every motor in mm/s, with one row for each foot. Motor 1 has a thick line, "
       + "motor 2 a medium line, motor 3 a thin line",
-    of: ({ motor_speeds_mm_s: speeds, speed_limits_mm_s: limits }, options) =>
-      (speeds ? { series: aMotor(speeds), low: null, high: limits.motor, wanted: mmRequested(options?.motor_speed), lanes: true } : null),
+    of: ({ motor_speeds_mm_s: speeds, motor_speed_limit_mm_s: high }, { options }) =>
+      (speeds ? { series: aMotor(speeds), low: null, high, wanted: mmRequested(options.motor_speed), lanes: true } : null),
     now: ({ motor_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => Math.floor(at / MOTORS), "mm/s"),
   },
 ];

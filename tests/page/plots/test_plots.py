@@ -35,15 +35,16 @@ DRAW = """async ([legs, samples]) => {
     feet: rows(legs, (index, at) => [0, 0, wave(index, at + shift) / 1000]),
     strokes_mm: rows(3 * legs, wave), stroke_limits_mm: [0.5, 19.5],
     foot_speeds_mm_s: rows(legs, wave), motor_speeds_mm_s: rows(3 * legs, wave),
-    speed_limits_mm_s: { foot: 15, motor: 15 },
+    motor_speed_limit_mm_s: 15,
   });
   const timeline = { sample_time: 0.4, feet: list(legs, () => "1".repeat(samples)) };
+  const gait = { timeline, options: { foot_speed: 0.015 } };
   const frame = () => new Promise((done) => requestAnimationFrame(done));
   for (let frames = 0; frames < 3; frames += 1) await frame(); // until every strip knows its size
   const times = [];
   for (let round = 0; round < 7; round += 1) {
     const begun = performance.now();
-    store.set({ view: { id: "x", plan: plan(round), document: { timeline, options: {} } } });
+    store.set({ view: { id: "x", plan: plan(round), document: gait } });
     await null;
     document.querySelector("#plots").getBoundingClientRect();
     times.push(performance.now() - begun);
@@ -76,6 +77,11 @@ BANDS = """(strip) => {
   return data.filter((_, at) => at % 4 === 3).filter((alpha) => alpha > 20 && alpha < 80).length;
 }"""
 """Columns whose topmost pixel is tinted."""
+FOOT_SPEED_LIMIT = """async ([document, parts]) => {
+  const { STRIPS } = await import("/static/plots/strips.js");
+  const { of } = STRIPS.find(({ key }) => key === "foot_speeds");
+  return of({ foot_speeds_mm_s: [[1]], parts }, document).high;
+}"""
 PICTURE = """async ({ content, overs }) => {
   const { stripPicture } = await import("/static/plots/strip_picture.js");
   const { acrossOf } = await import("/static/plots/curves.js");
@@ -152,6 +158,25 @@ def test_every_strip_says_its_range_and_its_limits(page: Page) -> None:
     expect(strip(page, "foot_speeds")).to_have_attribute("aria-label", words)
     both = re.compile(r"^Strokes: [0-9.]+ to [0-9.]+ mm, limits 0\.5 and 19\.5")
     expect(strip(page, "strokes")).to_have_attribute("aria-label", both)
+
+
+def test_the_limit_of_the_foot_speeds_is_the_own_one_of_a_computed_motion(page: Page) -> None:
+    slow, fast, own = ({"options": {"foot_speed": speed}} for speed in (0.01, 0.03, 0.04))
+    by_hand = {**slow, "segment_table": {}}
+    stay, between = {"is_transition": False}, {"is_transition": True}
+
+    def limit(document: dict[str, Any], *parts: dict[str, bool]) -> float | None:
+        found: float | None = page.evaluate(FOOT_SPEED_LIMIT, [document, parts])
+        return found
+
+    def sequence(*gaits: dict[str, Any]) -> dict[str, Any]:
+        return {**own, "sequence": [{"gait": gait} for gait in gaits]}
+
+    assert limit(fast) == 30.0
+    assert [limit({**fast, word: {}}) for word in ("segment_table", "recorded", "poses")] == [None] * 3
+    assert limit(sequence(slow, fast), stay, stay) == 30.0
+    assert limit(sequence(slow, fast), stay, between, stay) == 40.0
+    assert limit(sequence(slow, by_hand), stay, between, stay) is None
 
 
 def test_the_pointer_reads_the_values_of_all_feet_and_both_times(page: Page) -> None:

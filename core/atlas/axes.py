@@ -7,7 +7,8 @@ from types import MappingProxyType
 from typing import Any
 
 from core.errors import InputError
-from core.pose_gaits.pose_problem import MOST_TURN, PLANE_HEIGHTS, POSE_BOUNDS
+from core.pose_gaits.pose_problem import MOST_TURN, POSE_BOUNDS
+from core.problem.motion_problem import PLANE_HEIGHTS
 
 CHOICES = "choices"
 ROBOT = "robot."

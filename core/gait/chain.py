@@ -12,7 +12,7 @@ from core.gait.options import GaitOptions
 from core.gait.transition import feet_transition
 from core.motion.contact_timeline import SAME_INTERVAL
 from core.motion.trajectory import Trajectory
-from core.problem.body_move import BodyPlace, MoveLimits, body_move
+from core.problem.body_move import BodyPlace, body_move
 from core.problem.motion_problem import MotionProblem, raised_feet
 from core.problem.start_footholds import placed_on
 from core.robot.model import RobotModel
@@ -156,11 +156,10 @@ def _body_move(
     gap = max(float(np.abs(goal.body_world - start.body_world).max()), abs(goal.heading - start.heading))
     if gap <= SAME_POSE:
         return None
-    motor = model.stroke.speed if options.motor_speed is None else options.motor_speed
     sample_time = float(standing.times[1] - standing.times[0])
-    limits = MoveLimits(options.body_speed, min(motor, model.stroke.speed), sample_time)
+    limits = options.motion_limits()
     try:
-        return body_move(model, start, goal, standing.feet_world[-1], limits)
+        return body_move(model, start, goal, standing.feet_world[-1], limits, sample_time)
     except InfeasibleError as refusal:
         raise InfeasibleError(f"Between {names}: {refusal.sentence}", "sequence") from refusal
 

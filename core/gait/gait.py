@@ -22,7 +22,6 @@ from core.motion.trajectory import quarter_turn
 from core.names import is_visible
 from core.problem.motion_problem import (
     Boundary,
-    MotionLimits,
     MotionProblem,
     RestPose,
     maps_onto_itself,
@@ -392,22 +391,12 @@ def motion_problem(gait: Gait, model: RobotModel) -> MotionProblem:
     start, goal = resting_poses(gait, model)
     yaw = gait.step[2]
     profile = heading_profile(gait.timeline, yaw, gait.iterations, options.turning) if yaw else None
-    limits = MotionLimits(
-        clearance=options.clearance,
-        margin=options.margin,
-        body_speed=options.body_speed,
-        foot_speed=options.foot_speed,
-        workspace=options.workspace,
-        friction=options.friction,
-        motor_speed=options.motor_speed,
-        motor_acceleration=options.motor_acceleration,
-    )
     return MotionProblem(
         model=model,
         timeline=gait.timeline,
         start=start,
         goal=goal,
-        limits=limits,
+        limits=options.motion_limits(),
         cost=options.cost,
         quarter_turns=gait.quarter_turns if maps_onto_itself(model.leg_count, gait.quarter_turns) else 0,
         boundary=options.boundary,

@@ -1,12 +1,12 @@
 """Options of a gait: limits and cost for the optimiser, and how the result is sent."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
 from core.errors import InputError
 from core.motion.heading_profile import HeadingProfile
-from core.problem.motion_problem import Boundary, Cost, Workspace
+from core.problem.motion_problem import PLANE_HEIGHTS, Boundary, Cost, MotionLimits, Workspace
 
 
 @dataclass(frozen=True)
@@ -125,3 +125,23 @@ class GaitOptions:
             sentence = None if value is None else bounds.sentence(name, value)
             if sentence is not None:
                 raise InputError(sentence, name)
+
+    def motion_limits(self, heights: Iterable[float] = ()) -> MotionLimits:
+        """The limits of a motion with these options.
+
+        Args:
+            heights: of actuator planes that the motion has to reach, m; they widen its range.
+        """
+        lowest, highest = PLANE_HEIGHTS
+        reached = tuple(heights)
+        return MotionLimits(
+            foot_speed=self.foot_speed,
+            body_speed=self.body_speed,
+            clearance=self.clearance,
+            margin=self.margin,
+            workspace=self.workspace,
+            friction=self.friction,
+            motor_speed=self.motor_speed,
+            motor_acceleration=self.motor_acceleration,
+            plane_height=(min((lowest, *reached)), max((highest, *reached))),
+        )

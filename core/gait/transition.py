@@ -10,7 +10,7 @@ from core.motion.contact_timeline import ContactTimeline
 from core.motion.heading_profile import eased
 from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import closed_contact
-from core.problem.motion_problem import MotionLimits, MotionProblem, RestPose, raised_feet, turned_about_z
+from core.problem.motion_problem import MotionProblem, RestPose, raised_feet, turned_about_z
 from core.problem.start_footholds import Placed, Placement
 from core.robot.model import RobotModel
 
@@ -39,7 +39,7 @@ def feet_transition(
         model: the robot.
         standing: the motion before.
         then: the motion that follows.
-        options: clearance, margin, speeds and phase lengths of the steps.
+        options: limits and phase lengths of the steps.
     """
     angle, origin = float(standing.heading[-1]), np.append(standing.body_world[-1, :2], 0.0)
     here = RestPose(
@@ -60,7 +60,7 @@ def feet_transition(
         timeline=timeline,
         start=here,
         goal=goal,
-        limits=_limits(model, here, goal, options),
+        limits=options.motion_limits(float(p.body_world[2]) - model.com_height for p in (here, goal)),
         cost=options.cost,
         heading_profile=turn * eased(np.linspace(0.0, 1.0, timeline.sample_count)),
     )
@@ -90,20 +90,6 @@ def _timeline(
         first = (2 * turn + 1) * knots
         stance[foot, 0 if before[foot] else first : None if after[foot] else first + knots] = False
     return ContactTimeline(stance, np.zeros_like(stance), sample_time)
-
-
-def _limits(model: RobotModel, here: RestPose, goal: RestPose, options: GaitOptions) -> MotionLimits:
-    heights = [float(pose.body_world[2]) - model.com_height for pose in (here, goal)]
-    lower, upper = MotionLimits.plane_height
-    return MotionLimits(
-        plane_height=(min(lower, *heights), max(upper, *heights)),
-        clearance=options.clearance,
-        margin=options.margin,
-        body_speed=options.body_speed,
-        foot_speed=options.foot_speed,
-        workspace=options.workspace,
-        motor_speed=options.motor_speed,
-    )
 
 
 def straight(problem: MotionProblem) -> Trajectory:

@@ -8,7 +8,6 @@ import numpy as np
 from core.gait.gait import Gait
 from core.gait.options import GaitOptions
 from core.patterns.problem import BalanceModel, PatternRules
-from core.problem.motion_problem import MotionLimits
 from core.robot.leg import strokes_from_foot
 from core.robot.model import RobotModel
 
@@ -81,15 +80,16 @@ def own_balance(model: RobotModel, travel: float = 0.010) -> BalanceModel:
 def needed_swing(*gaits: Gait) -> int:
     """How many samples a swing takes at least, so that a robot's feet can take the gaits' steps.
 
-    A foot has to travel a step L within its swing: that takes L / (¾·v·dt) samples, v the limit of its speed,
-    and at least three, one each to rise, to be up and to sink.
+    A foot has to travel a step L within its swing: that takes L / (¾·v·dt) samples, v the smallest limit of
+    its speed in the gaits, and at least three, one each to rise, to be up and to sink.
 
     Args:
         gaits: both sides of a transition, or one gait.
     """
     longest = max(float(np.hypot(*gait.step[:2])) for gait in gaits)
     sample_time = min(gait.timeline.sample_time for gait in gaits)
-    return max(math.ceil(longest / (SWING_SHARE * MotionLimits.foot_speed * sample_time)), SHORTEST_SWING)
+    speed = SWING_SHARE * min(gait.options.foot_speed for gait in gaits)
+    return max(math.ceil(longest / (speed * sample_time) - 1e-9), SHORTEST_SWING)
 
 
 def walkable(rules: PatternRules, *gaits: Gait) -> PatternRules:

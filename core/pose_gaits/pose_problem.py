@@ -16,6 +16,7 @@ from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.gait.poses import MOST_SWAY, POSE_LIMITS, PinnedPose
 from core.motion.support_polygon import stability_margins, support_polygon
+from core.problem.motion_problem import PLANE_HEIGHTS
 from core.robot.arms import ARM_GAP
 from core.robot.model import RobotModel
 from core.wire.robot_time import PUBLISHED, TimeLaw, deaf_seconds, longest_move
@@ -24,8 +25,6 @@ FRACTIONS = (0.15, 0.3, 0.5, 0.7, 0.85)
 """Places within each move at which a solver holds its rows."""
 SWING_SHARE = 0.8
 """Of the height that a straight rise between two poses would have, this much is asked within a move."""
-PLANE_HEIGHTS = (0.053, 0.0605)
-"""Lowest and highest actuator plane of a pose above the standing feet, m (thesis 3.8)."""
 REST_HEIGHT = 0.0535
 """Actuator plane in the standard stance, m: feet centred, every motor at 5.5 mm on the DeltaWalker."""
 SHORTEST_MOVE = 0.007

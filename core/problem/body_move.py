@@ -8,9 +8,12 @@ import numpy as np
 from core.arrays import Bools, Floats
 from core.errors import InfeasibleError
 from core.motion.contact_timeline import MAX_SAMPLES
+from core.motion.speeds import motor_accelerations
+from core.motion.support_polygon import polygon_margin, support_polygon, trajectory_pressure
 from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import standing_forces
-from core.problem.motion_problem import raised_feet
+from core.problem.motion_check import TOLERANCE
+from core.problem.motion_problem import MotionLimits, raised_feet
 from core.robot.kinematics import actuator_plane_pose, free_strokes
 from core.robot.model import RobotModel
 
@@ -23,23 +26,13 @@ class BodyPlace:
     heading: float
 
 
-@dataclass(frozen=True)
-class MoveLimits:
-    """What a move between two poses keeps, SI.
-
-    Args:
-        body_speed: of the body, m/s.
-        motor_speed: of every motor, m/s.
-        sample_time: between knots, s.
-    """
-
-    body_speed: float
-    motor_speed: float
-    sample_time: float
-
-
 def body_move(
-    model: RobotModel, start: BodyPlace, goal: BodyPlace, feet_world: Floats, limits: MoveLimits
+    model: RobotModel,
+    start: BodyPlace,
+    goal: BodyPlace,
+    feet_world: Floats,
+    limits: MotionLimits,
+    sample_time: float,
 ) -> Trajectory:
     """Moves the body from rest to rest on standing feet in as few knots as the limits allow.
 
@@ -51,7 +44,8 @@ def body_move(
         start: of the body.
         goal: of the body.
         feet_world: (legs, 3) platforms, which stay where they are, on the ground or held above it, m.
-        limits: on speed, and the time between knots.
+        limits: of which those on speeds, motor acceleration, friction and margin are kept.
+        sample_time: between knots, s.
 
     Raises:
         InfeasibleError: a foot is out of reach on the way, or the move would take too long.
@@ -59,7 +53,7 @@ def body_move(
     counts = range(2, MAX_SAMPLES)
 
     def with_intervals(intervals: int) -> Trajectory:
-        return _move(start, goal, feet_world, intervals, limits.sample_time)
+        return _move(start, goal, feet_world, intervals, sample_time)
 
     slowest = with_intervals(counts[-1])
     way = (
@@ -72,15 +66,15 @@ def body_move(
             "together.",
             "sequence",
         )
-    if not _is_slow(model, slowest, limits):
+    if not _keeps(model, slowest, limits):
         raise InfeasibleError(
-            f"The body would move {way} for more than {MAX_SAMPLES} samples of {limits.sample_time:g} s, at "
-            f"most {limits.body_speed * 1000:g} mm/s fast and {limits.motor_speed * 1000:g} mm/s each motor. "
-            "Let it move faster, or bring both body heights closer together.",
+            f"The body would move {way} for more than {MAX_SAMPLES} samples of {sample_time:g} s to keep the "
+            "limits of the sequence. Allow more speed or acceleration or less margin between its parts, or "
+            "bring both body heights closer together.",
             "sequence",
         )
     # The more intervals, the slower: the fewest are found by halving.
-    fewest = bisect_left(counts, True, key=lambda count: _is_slow(model, with_intervals(count), limits))
+    fewest = bisect_left(counts, True, key=lambda count: _keeps(model, with_intervals(count), limits))
     found = with_intervals(counts[fewest])
     forces = standing_forces(model, found.body_world, found.feet_world, found.contact)
     return replace(found, contact_forces=forces)
@@ -112,8 +106,27 @@ def _strokes(model: RobotModel, motion: Trajectory) -> Floats:
     return free_strokes(model, motion.feet_world, pose)
 
 
-def _is_slow(model: RobotModel, motion: Trajectory, limits: MoveLimits) -> bool:
-    """Whether body and motors keep their speeds."""
-    motor = np.abs(np.diff(_strokes(model, motion), axis=0)).max() / limits.sample_time
-    body = np.linalg.norm(np.diff(motion.body_world, axis=0), axis=1).max() / limits.sample_time
-    return bool(motor <= limits.motor_speed and body <= limits.body_speed)
+def _keeps(model: RobotModel, motion: Trajectory, limits: MotionLimits) -> bool:
+    """Whether a move keeps the limits; no larger margin is asked than its ends have."""
+    places, seconds = motion.body_world, motion.times[1]
+    motor = np.abs(np.diff(_strokes(model, motion), axis=0)).max() / seconds
+    body = np.linalg.norm(np.diff(places, axis=0), axis=1).max() / seconds
+    pressure = trajectory_pressure(model, motion)
+    # Sideways force by load, which all feet can share alike: it shifts the centre of pressure by this much
+    # of the body's height.
+    friction = (np.linalg.norm(pressure - places[:-1, :2], axis=1) / places[:-1, 2]).max()
+    held = [
+        (motor, min(model.stroke.speed, limits.motor_speed or np.inf)),
+        (body, limits.body_speed),
+        (friction, limits.friction or np.inf),
+    ]
+    if limits.motor_acceleration is not None:
+        held.append((motor_accelerations(model, motion).max(), limits.motor_acceleration))
+    # The centre of pressure stays on a line and the polygon is convex: the ends of that line are nearest to
+    # its edge.
+    along = pressure @ (places[-1] - places[0])[:2]
+    polygon = support_polygon(motion.feet_world[0, motion.contact[0], :2])
+    points = pressure[along.argmin()], pressure[along.argmax()], *places[[0, -1], :2]
+    first, last, *at_rest = (polygon_margin(polygon, point) for point in points)
+    held.append((min(limits.margin, *at_rest), min(first, last)))
+    return all(value <= limit + TOLERANCE for value, limit in held)

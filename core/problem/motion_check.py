@@ -15,7 +15,7 @@ from core.errors import InputError
 from core.motion.speeds import motor_rates
 from core.motion.support_polygon import GRAVITY, centre_of_pressure, stability_margins
 from core.motion.trajectory import Trajectory
-from core.problem.motion_problem import CYLINDER, Boundary, MotionProblem, Workspace
+from core.problem.motion_problem import CYLINDER, GROUNDED_HEIGHT, Boundary, MotionProblem, Workspace
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules
 from core.robot.leg import strokes_from_foot
 from core.robot.shoes import foot_distances, least_distance
@@ -241,7 +241,7 @@ def _grounded_velocity(m: _Motion) -> float:
 
 def _grounded_height(m: _Motion) -> float:
     """(3.12)."""
-    return float(m.feet[m.standing][:, 2].max() - m.problem.limits.grounded_height)
+    return float(m.feet[m.standing][:, 2].max() - GROUNDED_HEIGHT)
 
 
 def _contact_force(m: _Motion) -> float:

@@ -62,38 +62,42 @@ class CylinderWorkspace:
 CYLINDER = CylinderWorkspace()
 
 
-@dataclass(frozen=True)
+PLANE_HEIGHTS = (0.053, 0.0605)
+"""Lowest and highest actuator plane above the standing feet's platforms, m, T (3.8)."""
+GROUNDED_HEIGHT = 0.00025
+"""How high a standing foot may be, m, T (3.12)."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class MotionLimits:
-    """Bounds of the problem, SI.
+    """Bounds of the problem, SI; `GaitOptions.motion_limits` makes them of a gait's options.
 
     Args:
-        plane_height: lowest and highest actuator plane, T (3.8).
         foot_speed: T (3.10).
         body_speed: the same for the body, without which the optimum throws it about.
-        grounded_height: how high a standing foot may be, T (3.12).
         clearance: how high the highest knot of each swing is at least.
         margin: how far inside the support polygon the centre of pressure stays.
         workspace: which form of reach holds.
         friction: coefficient of the friction cone of each foot; None for none.
         motor_speed: how fast a motor may extend or retract, m/s; None for none.
         motor_acceleration: how fast that speed may change from sample to sample, m/s²; None for none.
+        plane_height: lowest and highest actuator plane.
     """
 
-    plane_height: tuple[float, float] = (0.053, 0.0605)
-    foot_speed: float = 0.015
-    body_speed: float = 0.015
-    grounded_height: float = 0.00025
-    clearance: float = 0.003
-    margin: float = 0.0
-    workspace: Workspace = Workspace.STROKE
-    friction: float | None = None
-    motor_speed: float | None = None
-    motor_acceleration: float | None = None
+    foot_speed: float
+    body_speed: float
+    clearance: float
+    margin: float
+    workspace: Workspace
+    friction: float | None
+    motor_speed: float | None
+    motor_acceleration: float | None
+    plane_height: tuple[float, float] = PLANE_HEIGHTS
 
 
 def raised_feet(feet_world: Floats) -> Bools:
     """(legs,) which of (legs, 3) platforms are above what counts as ground."""
-    return np.asarray(feet_world[:, 2] > MotionLimits.grounded_height)
+    return np.asarray(feet_world[:, 2] > GROUNDED_HEIGHT)
 
 
 @dataclass(frozen=True, eq=False)

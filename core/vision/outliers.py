@@ -7,7 +7,8 @@ from core.arrays import Bools, Floats
 NEIGHBOURS_SECONDS = 0.6
 """How far before and after a frame its neighbours lie, s."""
 FARTHEST = 0.012
-"""A detection farther from its neighbours' median is false, m; a foot at 15 mm/s moves 9 mm in that time."""
+"""A detection farther from its neighbours' median is false, m. The motors set the pace of the robot's feet,
+whatever the limits of a gait: in gaits of the library feet come up to 4 mm away from that median."""
 
 
 def find_outliers(times: Floats, feet: Floats) -> Bools:

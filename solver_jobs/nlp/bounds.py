@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.problem.initial_guess import clearance_knot, standing_forces
+from core.problem.motion_problem import GROUNDED_HEIGHT, RestPose
 from core.problem.motion_problem import Boundary as Ends
-from core.problem.motion_problem import RestPose
 from core.problem.swing_height import held_knots, is_held, rest_heights
 from solver_jobs.nlp.constraint import Box, Family, Situation
 
@@ -93,8 +93,7 @@ class GroundedHeight:
 
     def tighten(self, box: Box, situation: Situation) -> None:
         """Bounds the z of standing feet from above."""
-        highest = situation.problem.limits.grounded_height
-        _at_most(box.upper.position[:, 1:, 2], np.where(situation.contact, highest, np.inf))
+        _at_most(box.upper.position[:, 1:, 2], np.where(situation.contact, GROUNDED_HEIGHT, np.inf))
 
 
 @dataclass(frozen=True)

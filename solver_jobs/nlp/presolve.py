@@ -11,6 +11,7 @@ from core.motion.support_polygon import GRAVITY, stability_margins
 from core.problem.initial_guess import problem_swings, rise_times
 from core.problem.motion_problem import (
     CYLINDER,
+    GROUNDED_HEIGHT,
     Boundary,
     MotionProblem,
     RestPose,
@@ -107,7 +108,7 @@ def low_swings(problem: MotionProblem, swings: tuple[Swing, ...]) -> list[tuple[
             continue
         lone = max(swing.first, 1) >= swing.last
         acting = 0.0 if lone else float(rise_times(swing, problem.intervals).max())
-        highest = acting * problem.limits.foot_speed + problem.limits.grounded_height
+        highest = acting * problem.limits.foot_speed + GROUNDED_HEIGHT
         if highest < problem.limits.clearance - SLACK:
             found.append((swing, highest))
     return found
@@ -243,7 +244,7 @@ def _short_lifts(problem: MotionProblem) -> Iterator[str]:
         first = max(swing.first, 1)
         around = problem.intervals[first - 1 : swing.last + 1]
         highest = float(((around[1:] + around[:-1]) / 2).sum()) * problem.limits.foot_speed
-        if abs(after - before) > highest + problem.limits.grounded_height + SLACK:
+        if abs(after - before) > highest + GROUNDED_HEIGHT + SLACK:
             yield (
                 f"Foot {swing.foot + 1} is in the air at {knot_ranges(tuple(swing.samples))}: too short to "
                 f"go {abs(after - before) * MM:.1f} mm {'up' if after > before else 'down'} to where it is "

@@ -15,7 +15,7 @@ import numpy as np
 from core.errors import FootfallError
 from core.gait.gait import Gait, drawn_timeline, with_iterations
 from core.patterns.limits import needed_swing
-from core.problem.motion_problem import MotionLimits, Workspace
+from core.problem.motion_problem import PLANE_HEIGHTS, Workspace
 from core.robot.model import RobotModel
 from solver_jobs.remedies.arms import arm_caution, arm_room
 from solver_jobs.remedies.layout import (
@@ -413,7 +413,7 @@ class Candidates:
         return self._remedy(RemedyKind.WORKSPACE, "Workspace: motor strokes", words, gait)
 
     def _height(self) -> Remedy | None:
-        lowest, highest = MotionLimits().plane_height
+        lowest, highest = PLANE_HEIGHTS
         now = self._asked.options.plane_height
         heights = np.arange(lowest, highest + HEIGHT_STEP / 2, HEIGHT_STEP)
         near = sorted((float(h) for h in heights if abs(h - now) > 1e-9), key=lambda h: abs(h - now))

@@ -13,11 +13,11 @@ from core.errors import FootfallError
 from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem, with_return
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import check_motion
-from core.problem.motion_problem import MotionProblem
+from core.problem.motion_problem import PLANE_HEIGHTS, MotionProblem
 from core.robot.model import RobotModel
 from solver_jobs.results.motion import Iterate, MotionResult, SolveStatus
 
-HEIGHTS = tuple(0.053 + 0.0005 * k for k in range(16))
+HEIGHTS = tuple(PLANE_HEIGHTS[0] + 0.0005 * k for k in range(16))
 """Actuator planes at start and goal that are tried, m: the body's bounds in steps of 0.5 mm."""
 
 PHASES = (6, 7, 8, 9, 10, 12, 14, 16, 20)

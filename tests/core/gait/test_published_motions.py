@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 from core.gait.gait import heading_step, motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import library
 from core.motion.contact_timeline import timeline_from_order
 from core.problem.motion_check import MotionCheck, check_motion
-from core.problem.motion_problem import MotionLimits, Workspace
+from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
 from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.support.reference import reference_path
@@ -36,7 +37,7 @@ def published_check(name: str, workspace: Workspace) -> MotionCheck:
     problem = motion_problem(replace(gait, step=step, iterations=iterations, timeline=timeline), MODEL)
     motion = replace(read, contact_forces=np.zeros_like(read.feet_world))
     return check_motion(
-        replace(problem, limits=MotionLimits(workspace=workspace, clearance=0.003)),
+        replace(problem, limits=GaitOptions(workspace=workspace).motion_limits()),
         motion,
     )
 

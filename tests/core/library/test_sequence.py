@@ -18,17 +18,18 @@ from core.gait.transition import feet_transition
 from core.library.library import library, optimised_entry
 from core.library.sequence import chain_runs, derived, ends_and_contact, run_of, sequence_gait
 from core.motion.balance import balance_margins
+from core.motion.speeds import motor_accelerations
+from core.motion.support_polygon import stability_margins, trajectory_pressure
 from core.motion.trajectory import Trajectory
-from core.problem.body_move import BodyPlace, MoveLimits, body_move
-from core.problem.motion_check import check_motion
-from core.problem.motion_problem import Boundary, MotionProblem, standing_pose
+from core.problem.body_move import BodyPlace, body_move
+from core.problem.motion_check import TOLERANCE, check_motion
+from core.problem.motion_problem import Boundary, MotionLimits, MotionProblem, standing_pose
 from core.problem.start_footholds import placed_on
 from core.robot.kinematics import feet_in_modules
 from core.robot.model import RobotModel, load_robot
 from solver_jobs import solve_live
 
 MODEL = load_robot("deltawalker")
-LIMITS = MoveLimits(body_speed=0.015, motor_speed=MODEL.stroke.speed, sample_time=0.4)
 
 
 def gait(name: str) -> Gait:
@@ -158,22 +159,55 @@ def test_a_move_keeps_its_speeds_and_follows_from_its_velocities(
 ) -> None:
     start = standing_pose(MODEL, 0.0535, (0.0, 0.0))
     goal = BodyPlace(start.body_world + [0.0, 0.0, rise], turn)
-    limits = replace(LIMITS, body_speed=speed)
-    motion = body_move(MODEL, BodyPlace(start.body_world, 0.0), goal, start.feet_world, limits)
+    limits = GaitOptions(body_speed=speed).motion_limits()
+    motion = body_move(MODEL, BodyPlace(start.body_world, 0.0), goal, start.feet_world, limits, 0.4)
     assert motion.body_world[-1] == pytest.approx(goal.body_world, abs=1e-12)
     assert motion.heading[-1] == pytest.approx(turn, abs=1e-12)
     assert motion.body_velocity is not None
     half = 0.2 * (motion.body_velocity[1:] + motion.body_velocity[:-1])
     assert np.diff(motion.body_world, axis=0) == pytest.approx(half, abs=1e-12)
-    assert np.linalg.norm(np.diff(motion.body_world, axis=0), axis=1).max() / 0.4 <= speed
+    assert np.linalg.norm(np.diff(motion.body_world, axis=0), axis=1).max() / 0.4 <= speed + TOLERANCE
     assert balance_margins(MODEL, motion)[0].min() > 0.02
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        GaitOptions(body_speed=0.1, motor_acceleration=0.02),
+        GaitOptions(body_speed=0.1, friction=0.01),
+        GaitOptions(body_speed=0.1, margin=0.0325),
+        GaitOptions(body_speed=0.1, margin=0.05),
+    ],
+)
+def test_a_move_keeps_acceleration_friction_and_as_much_of_the_margin_as_its_ends(
+    options: GaitOptions,
+) -> None:
+    start = standing_pose(MODEL, 0.0535, (0.0, 0.0))
+    goal = BodyPlace(start.body_world + [0.003, 0.002, 0.0], 0.0)
+
+    def kept(limits: MotionLimits) -> list[bool]:
+        motion = body_move(MODEL, BodyPlace(start.body_world, 0.0), goal, start.feet_world, limits, 0.02)
+        pressure = trajectory_pressure(MODEL, motion)
+        shift = np.linalg.norm(pressure - motion.body_world[:-1, :2], axis=1)
+        margins, _ = balance_margins(MODEL, motion)
+        rest = stability_margins(motion.body_world[:, :2], motion.feet_world, motion.contact)
+        limit = options.motor_acceleration or np.inf
+        return [
+            motor_accelerations(MODEL, motion).max() <= limit + TOLERANCE,
+            (shift / motion.body_world[:-1, 2]).max() <= (options.friction or np.inf) + TOLERANCE,
+            margins.min() >= min(options.margin, rest[0], rest[-1]) - TOLERANCE,
+        ]
+
+    assert all(kept(options.motion_limits()))
+    assert not all(kept(GaitOptions(body_speed=0.1).motion_limits()))
 
 
 def test_a_move_that_no_rod_can_follow_is_refused() -> None:
     start = standing_pose(MODEL, 0.0535, (0.0, 0.0))
     goal = BodyPlace(start.body_world + [0.06, 0.0, 0.0], 0.0)
+    limits = GaitOptions().motion_limits()
     with pytest.raises(InfeasibleError, match="out of reach on the way"):
-        body_move(MODEL, BodyPlace(start.body_world, 0.0), goal, start.feet_world, LIMITS)
+        body_move(MODEL, BodyPlace(start.body_world, 0.0), goal, start.feet_world, limits, 0.4)
 
 
 def test_a_move_takes_as_few_samples_as_its_speed_allows_and_is_refused_where_they_are_too_many() -> None:
@@ -181,12 +215,12 @@ def test_a_move_takes_as_few_samples_as_its_speed_allows_and_is_refused_where_th
     goal = BodyPlace(start.body_world + [0.0, 0.0, 0.003], 0.0)
 
     def moved(sample_time: float) -> Trajectory:
-        limits = replace(LIMITS, body_speed=0.001, sample_time=sample_time)
-        return body_move(MODEL, BodyPlace(start.body_world, 0.0), goal, start.feet_world, limits)
+        limits = GaitOptions(body_speed=0.001).motion_limits()
+        return body_move(MODEL, BodyPlace(start.body_world, 0.0), goal, start.feet_world, limits, sample_time)
 
     # The fastest of K intervals goes 1.5/K of the way: 3 mm at 1 mm/s take 4.5 s.
     assert moved(0.01).knot_count == pytest.approx(450, abs=3)
-    with pytest.raises(InfeasibleError, match=r"for more than 2000 samples of 0.001 s, at most 1 mm/s fast"):
+    with pytest.raises(InfeasibleError, match=r"for more than 2000 samples of 0.001 s to keep"):
         moved(0.001)
 
 
@@ -248,6 +282,27 @@ def test_the_steps_between_are_a_problem_from_where_the_robot_stands() -> None:
     assert solved.feet_world[-1] == pytest.approx(then.motion.feet_world[0], abs=1e-6)
     assert solved.heading[[0, -1]] == pytest.approx([0.4, then.motion.heading[0]], abs=1e-12)
     assert [swing.foot for swing in way.problem.timeline.swings()] == [2]
+
+
+@pytest.mark.parametrize(
+    ("sample_time", "family", "options"),
+    [
+        (0.4, "motor_acceleration", GaitOptions(motor_acceleration=0.01, margin=0.003)),
+        (0.05, "friction", GaitOptions(friction=0.01, margin=0.003, body_speed=0.1, foot_speed=0.1)),
+    ],
+)
+def test_the_steps_between_keep_every_limit_of_the_sequence(
+    sample_time: float, family: str, options: GaitOptions
+) -> None:
+    times = np.arange(6, dtype=np.float64) * sample_time
+    first, second = (replace(standing(travel, 0.4), times=times) for travel in (0.01, 0.0))
+    feet = np.array(first.feet_world)
+    feet[-1, 2, 0] += 0.006
+    moved = replace(first, feet_world=feet)
+    problem = feet_transition(MODEL, moved, placed_on(moved, second), options).problem
+    free = replace(problem, limits=replace(problem.limits, friction=None, motor_acceleration=None))
+    assert check_motion(problem, solve_live(free).trajectory).violations[family] > 0.001
+    assert check_motion(problem, solve_live(problem).trajectory).confirmed
 
 
 @pytest.mark.parametrize("moved", [(), (4,), (0, 3, 7), tuple(range(9))])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from core.gait.gait import Gait, Orientation
 from core.library.library import library
 from core.library.new_gait import with_robot
 from core.motion.contact_timeline import timeline_from_rows
-from core.patterns.limits import body_reach, walking_rules
+from core.patterns.limits import body_reach, needed_swing, walking_rules
 from core.patterns.problem import FREE, PatternKind, PatternProblem, PatternRules
 from core.patterns.sides import PatternSide, locked_limbs
 from core.patterns.sources import (
@@ -207,6 +208,24 @@ def test_swings_are_long_enough_for_the_step(step: float, swing: int) -> None:
     assert (rules.shortest_swing, rules.least_swing) == (swing, swing)
     assert rules.balance == max(WALK.options.margin, AMBLE.options.margin)
     assert replace(rules, shortest_swing=2, least_swing=2, balance=None) == PatternRules()
+
+
+@pytest.mark.parametrize(
+    ("foot_speeds", "swing"), [((0.03, 0.03), 4), ((0.03, 0.0075), 14), ((0.03, 0.1), 4), ((0.1, 0.1), 3)]
+)
+def test_swings_are_as_long_as_the_slower_gait_needs(foot_speeds: tuple[float, float], swing: int) -> None:
+    gaits = (
+        replace(gait.with_options(foot_speed=speed), step=(0.030, 0.0, 0.0))
+        for gait, speed in zip((WALK, AMBLE), foot_speeds, strict=True)
+    )
+    assert walking_rules(*gaits).least_swing == swing
+
+
+def test_a_step_that_takes_whole_samples_takes_no_more() -> None:
+    for speed, samples in product(range(1, 41), range(3, 16)):
+        gait = WALK.with_options(foot_speed=speed / 1000)
+        step = 0.75 * samples * speed * 0.4 / 1000
+        assert needed_swing(replace(gait, step=(step, 0.0, 0.0))) == samples, (speed, samples)
 
 
 def drawn(foot_1: str) -> Gait:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.gait.options import GaitOptions
 from core.motion.contact_timeline import timeline_from_order, timeline_from_rows
 from core.motion.support_polygon import GRAVITY, stability_margins
 from core.problem.initial_guess import (
@@ -17,7 +18,7 @@ from core.problem.initial_guess import (
     problem_swings,
     standing_forces,
 )
-from core.problem.motion_problem import Cost, MotionLimits, MotionProblem, standing_pose
+from core.problem.motion_problem import Cost, MotionProblem, standing_pose
 from core.robot.model import load_robot
 
 ORDERS = [(3, 2, 4, 1), (3, 1, 4, 2), (1, 2, 4, 3), (1, 2, 3, 4)]
@@ -30,7 +31,7 @@ def problem_of(order: tuple[int, ...], iterations: int = 1) -> MotionProblem:
         timeline_from_order(model.leg_count, order, iterations=iterations),
         standing_pose(model, 0.0535, (0.0, 0.0)),
         standing_pose(model, 0.0535, (0.010, 0.004)),
-        MotionLimits(),
+        GaitOptions().motion_limits(),
         Cost.GOAL,
     )
 

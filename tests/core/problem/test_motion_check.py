@@ -11,12 +11,13 @@ import pytest
 
 from core.errors import InputError
 from core.gait.gait import heading_step, motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.support_polygon import GRAVITY
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
-from core.problem.motion_problem import Boundary, MotionLimits, MotionProblem, Workspace
+from core.problem.motion_problem import Boundary, MotionProblem, Workspace
 from core.robot.model import FootEnd, load_robot
 from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.support.reference import reference_path
@@ -33,7 +34,7 @@ def standing_problem(swinging_foot: int | None = None) -> MotionProblem:
         stance[swinging_foot, 2:4] = False
     timeline = ContactTimeline(stance, np.zeros_like(stance), 0.4)
     problem = motion_problem(replace(gait, timeline=timeline), MODEL)
-    return replace(problem, limits=MotionLimits())
+    return replace(problem, limits=GaitOptions().motion_limits())
 
 
 def standing(problem: MotionProblem, **changes: np.ndarray) -> Trajectory:
@@ -258,7 +259,7 @@ def test_the_published_walk_starts_below_the_body_height_bound() -> None:
     problem = motion_problem(replace(walk, timeline=timeline), MODEL)
     forces = np.zeros((read.knot_count, 4, 3))
     check = check_motion(
-        replace(problem, limits=MotionLimits(workspace=Workspace.CYLINDER)),
+        replace(problem, limits=GaitOptions(workspace=Workspace.CYLINDER).motion_limits()),
         replace(read, contact_forces=forces),
     )
     # Published start and goal lie below the body height bound (docs/sources.md).

@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.gait.options import GaitOptions
 from core.motion.contact_timeline import timeline_from_order, timeline_from_rows
 from core.motion.support_polygon import centre_of_pressure, stability_margins
 from core.motion.trajectory import Trajectory, turn_trajectory
-from core.problem.motion_problem import Cost, MotionLimits, MotionProblem, RestPose, Workspace, standing_pose
+from core.problem.motion_problem import Cost, MotionProblem, RestPose, Workspace, standing_pose
 from core.robot.model import load_robot
 from solver_jobs import Evidence, Iterate, MotionResult, SolveStatus
 from solver_jobs.nlp.motion_nlp import solve_motion
@@ -115,7 +116,9 @@ def test_six_legs_converge() -> None:
     model = load_robot("hexapod")
     timeline = timeline_from_order(6, (1, 2, 3, 4, 5, 6), phase_knots=3, closing_knots=3)
     start, goal = (standing_pose(model, 0.0535, (x, 0.0)) for x in (0.0, 0.006))
-    expect_solved(solve_motion(MotionProblem(model, timeline, start, goal, MotionLimits(), Cost.GOAL)))
+    expect_solved(
+        solve_motion(MotionProblem(model, timeline, start, goal, GaitOptions().motion_limits(), Cost.GOAL))
+    )
 
 
 def test_feet_land_flat_between_swings() -> None:

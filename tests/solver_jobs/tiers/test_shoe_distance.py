@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from core.gait.gait import motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.problem.motion_check import check_motion
-from core.problem.motion_problem import Boundary, Cost, MotionLimits, MotionProblem, RestPose
+from core.problem.motion_problem import Boundary, Cost, MotionProblem, RestPose
 from core.robot.model import RobotModel, load_robot
 from core.robot.shoes import foot_distances, least_distance
 from solver_jobs import Evidence, MotionResult, SolveStatus, solve_live
@@ -48,7 +49,9 @@ def passing(
     timeline = ContactTimeline(stance, np.zeros_like(stance), 0.4)
     body = np.array([0.0, 0.0, 0.056 + model.com_height])
     start, goal = (RestPose(body, place) for place in feet)
-    return MotionProblem(model, timeline, start, goal, MotionLimits(motor_speed=motor_speed), Cost.GOAL)
+    return MotionProblem(
+        model, timeline, start, goal, GaitOptions(motor_speed=motor_speed).motion_limits(), Cost.GOAL
+    )
 
 
 def walk(sole: float) -> MotionProblem:

@@ -15,8 +15,9 @@ from dataclasses import replace
 import pytest
 
 from core.errors import InputError, StateError
+from core.gait.options import GaitOptions
 from core.motion.contact_timeline import timeline_from_order
-from core.problem.motion_problem import Cost, MotionLimits, MotionProblem, Workspace, standing_pose
+from core.problem.motion_problem import Cost, MotionProblem, Workspace, standing_pose
 from core.robot.model import load_robot
 from solver_jobs import Job, JobQueue, JobState, SolveStatus
 from solver_jobs.workers import job_queue as runner_module
@@ -31,7 +32,7 @@ def long_problem() -> MotionProblem:
     model = load_robot("dodecapod")
     timeline = timeline_from_order(12, range(1, 13), iterations=4)
     start, goal = (standing_pose(model, 0.0535, (x, 0.0)) for x in (0.0, 0.020))
-    return MotionProblem(model, timeline, start, goal, MotionLimits(), Cost.GOAL)
+    return MotionProblem(model, timeline, start, goal, GaitOptions().motion_limits(), Cost.GOAL)
 
 
 class Listener:

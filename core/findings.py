@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from datetime import datetime
 from enum import StrEnum
 from typing import Any
@@ -12,6 +12,14 @@ from core.names import is_visible
 
 TOLERANCE = 1e-6
 """What a limit may be passed by before it counts, m."""
+
+VERDICT_FORM = 2
+"""Of what a verdict's hash is over. In the first one it was every digit and every sentence."""
+
+
+def is_simulated(rule: str) -> bool:
+    """Whether a rule judges a simulation rather than the plan."""
+    return rule.startswith("simulated_")
 
 
 class Severity(StrEnum):
@@ -48,6 +56,15 @@ class Finding:
     actuator: int | None = None
     time: float | None = None
     remedy: str = ""
+
+    @property
+    def identity(self) -> tuple[str, Severity, int | None, int | None, int | None]:
+        """What tells it from another finding: rule, severity, foot, motor and sample.
+
+        A simulated one has no sample here: when a foot slides most is another moment on another computer.
+        """
+        sample = None if is_simulated(self.rule) else self.sample
+        return self.rule, self.severity, self.foot, self.actuator, sample
 
 
 def found(
@@ -148,8 +165,15 @@ class Verdict:
 
     @property
     def content_hash(self) -> str:
-        """SHA-256 over everything in the verdict."""
-        return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()
+        """SHA-256 over what an approval is bound to: waypoints, robot, the rules, and what they found.
+
+        Margins, sentences, costs and notes are left out: they change with a processor's last digits, or with
+        a word.
+        """
+        rules = sorted({margin.rule for margin in self.margins})
+        found = sorted({finding.identity for finding in self.findings}, key=str)
+        content = [VERDICT_FORM, self.waypoints_hash, self.robot_hash, rules, found]
+        return hashlib.sha256(json.dumps(content).encode()).hexdigest()
 
 
 @dataclass(frozen=True)
@@ -163,6 +187,7 @@ class Approval:
         when: ISO 8601 time with its offset.
         warnings: sentences of the warnings that stood, and that the person has seen.
         robot_hash: of the robot's parameters; nothing in approvals of the first release.
+        form: of the verdict's hash; approvals that name none are of the first.
     """
 
     verdict_hash: str
@@ -171,6 +196,7 @@ class Approval:
     when: str
     warnings: tuple[str, ...] = ()
     robot_hash: str = ""
+    form: int = 1
 
 
 def approve(verdict: Verdict, by: str, when: datetime, *, accept_warnings: bool = False) -> Approval:
@@ -199,4 +225,4 @@ def approve(verdict: Verdict, by: str, when: datetime, *, accept_warnings: bool 
         )
     seen = tuple(finding.sentence for finding in verdict.warnings)
     hashes = (verdict.content_hash, verdict.waypoints_hash)
-    return Approval(*hashes, by.strip(), when.isoformat(), seen, verdict.robot_hash)
+    return Approval(*hashes, by.strip(), when.isoformat(), seen, verdict.robot_hash, VERDICT_FORM)

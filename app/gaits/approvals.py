@@ -5,11 +5,12 @@ from datetime import UTC, datetime
 
 from app.common.json import Json
 from app.documents.stored_gait import stored_gait
-from app.gaits.open_gait import OpenGait, VerdictOf, approval_of
+from app.gaits.kept_approval import approval_of
+from app.gaits.open_gait import OpenGait, VerdictOf
 from app.plans.plan import Plan
 from app.store.edit_history_store import EditHistoryStore
-from core.errors import FootfallError, NotFoundError, StateError
-from core.findings import Approval, Verdict, approve
+from core.errors import NotFoundError, StateError
+from core.findings import Approval, Verdict, approve, is_simulated
 from core.gait.gait import Gait
 from core.gait.gait_difference import DifferenceGroup, gait_difference
 from core.wire.robot_time import estimate_seconds, stop_time
@@ -80,16 +81,6 @@ def approved(
     return approve(now, request.by, datetime.now(UTC), accept_warnings=request.accept_warnings), now
 
 
-def is_confirmed(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf) -> bool:
-    """Whether the gait has no approval, or its approval matches the current verdict."""
-    if open_gait.approval is None:
-        return True
-    try:
-        return verdict_of(plan, open_gait.gait).content_hash == open_gait.approval.verdict_hash
-    except FootfallError:
-        return False
-
-
 def approval_record(approval: Approval, version: int, plan: Plan, verdict: Verdict) -> Json:
     """What is kept of an approval, as JSON content."""
     return {**asdict(approval), "version": version, "figures": approval_figures(plan, verdict)}
@@ -103,7 +94,7 @@ def approval_figures(plan: Plan, verdict: Verdict) -> Json:
         "waypoints": plan.waypoints.count,
         "seconds": round(estimate_seconds(plan.waypoints), 1),
         "stop_seconds": round(stop_time(plan.waypoints), 2),
-        "simulated": any(margin.rule.startswith("simulated_") for margin in verdict.margins),
+        "simulated": any(is_simulated(margin.rule) for margin in verdict.margins),
         "margins": {m.rule: [m.margin, m.unit] for m in verdict.margins if m.margin is not None},
     }
 

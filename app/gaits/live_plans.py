@@ -111,7 +111,7 @@ class LivePlans:
     def keep(self, plan: Plan) -> Plan:
         """Keeps a plan for a while, so that its poses can be asked for by its hash."""
         with self._lock:
-            _remember(self._plans, plan.hash, plan, MOST_PLANS)
+            _remember(self._plans, plan.session_hash, plan, MOST_PLANS)
         return plan
 
     def kept(self, plan_hash: str) -> Plan:

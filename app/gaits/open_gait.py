@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, fields, replace
+from dataclasses import asdict, dataclass, replace
+from datetime import datetime
 from functools import lru_cache
-from typing import Any
 
 from app.documents.gait_json import gait_content
 from app.documents.stored_gait import StoredGait, stored_gait
+from app.gaits.kept_approval import approval_of, in_todays_form, what_changed
 from app.plans.plan import Plan
 from app.undo.history import History, LogEntry, fresh_history
 from core.errors import FootfallError, InputError
@@ -19,6 +20,7 @@ from core.gait.gait import Gait
 
 VerdictOf = Callable[[Plan, Gait], Verdict]
 """Checks a plan of a document as everything stands now, the physics included."""
+NO_PLAN = "There is no plan any more"
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,11 @@ class OpenGait:
         return None
 
     @property
+    def approval_text(self) -> str | None:
+        """The approval as it is kept, JSON text; None where there is none."""
+        return self.kept_approval if self.approval is None else json.dumps(asdict(self.approval))
+
+    @property
     def edited(self) -> bool:
         """Whether the document differs from what is saved."""
         return self.gait != self.saved
@@ -89,6 +96,17 @@ class OpenGait:
         revoked = f"{why}, so it is no longer approved." if had_one else self.revoked
         return replace(self, verdict=None, approval=None, kept_approval=None, revoked=revoked)
 
+    def lapsed(self, approval: Approval, why: str) -> OpenGait:
+        """The gait without an approval that nobody took away.
+
+        Args:
+            approval: which one.
+            why: what is different, as the beginning of a sentence.
+        """
+        day = datetime.fromisoformat(approval.when).astimezone().date()
+        revoked = f"{why}, so the approval by {approval.by} of {day} is no longer valid."
+        return replace(self.unapproved(why), revoked=revoked)
+
     def with_plan(self, plan: Plan, verdict_of: VerdictOf) -> OpenGait:
         """Restores a kept approval once the plan is known, if it is for exactly this plan's verdict.
 
@@ -98,23 +116,26 @@ class OpenGait:
         """
         if self.kept_approval is None:
             return self
-        approval = approval_of(json.loads(self.kept_approval))
+        kept = approval_of(json.loads(self.kept_approval))
         try:
             verdict = verdict_of(plan, self.gait)
         except FootfallError:
-            return self.unapproved("There is no plan any more")
-        if verdict.content_hash != approval.verdict_hash:
-            return self.unapproved(_what_changed(approval, verdict))
+            return self.lapsed(kept, NO_PLAN)
+        approval = in_todays_form(kept, verdict)
+        why = what_changed(approval, verdict)
+        if why is not None:
+            return self.lapsed(kept, why)
         return replace(self, verdict=verdict, approval=approval, kept_approval=None)
 
-
-def _what_changed(approval: Approval, verdict: Verdict) -> str:
-    """Why a kept approval is not of today's verdict, as the beginning of a sentence."""
-    if approval.robot_hash and approval.robot_hash != verdict.robot_hash:
-        return "The robot's parameters changed"
-    if approval.waypoints_hash != verdict.waypoints_hash:
-        return "The plan changed"
-    return "The rules of the check, or the simulation, give a different result than before"
+    def confirmed(self, plan: Plan, verdict_of: VerdictOf) -> OpenGait:
+        """The gait, without its approval where that is not of this moment's verdict (see `with_plan`)."""
+        if self.approval is None:
+            return self
+        try:
+            why = what_changed(self.approval, verdict_of(plan, self.gait))
+        except FootfallError:
+            why = NO_PLAN
+        return self if why is None else self.lapsed(self.approval, why)
 
 
 def fresh_gait(
@@ -141,13 +162,6 @@ def gait_of(entry: LogEntry) -> Gait:
 def stored_entry(entry: LogEntry) -> StoredGait:
     """The document of an entry of the log, and what of it is different now (see `gait_of`)."""
     return _parsed(entry.document)
-
-
-def approval_of(content: dict[str, Any]) -> Approval:
-    """An approval out of its JSON content, whatever else stands beside it."""
-    known = {field.name for field in fields(Approval)}
-    values = {name: value for name, value in content.items() if name in known}
-    return Approval(**values | {"warnings": tuple(content.get("warnings", ()))})
 
 
 @lru_cache(maxsize=64)

@@ -76,13 +76,13 @@ class PlanCache:
     def taken(self, asked: PlanRequest, plan: Plan, now: OpenGait) -> OpenGait:
         """The gait with a plan that was made elsewhere; as it is where gait or results changed meanwhile.
 
-        Where it is another one than before, what was found of the old one is gone.
+        Where it would send something else than before, what was found of the old one is gone.
         """
         dropped = self._dropped.get(now.id, 0)
         if now.revision != asked.open_gait.revision or dropped != asked.dropped:
             return now
         before = self.known(now)
         self.keep(now, plan)
-        if before is not None and before.hash != plan.hash:
+        if before is not None and before.approvable != plan.approvable:
             now = now.unapproved("The plan is another one than before")
         return now.with_plan(plan, self.verdict_of)

@@ -3,9 +3,8 @@
 Only the command queue's thread calls this.
 """
 
-import json
 from collections.abc import Callable
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 from app.documents.stored_gait import StoredGait, stored_gait
@@ -64,7 +63,7 @@ class GaitRepository:
         opened = OpenGait(
             gait_id, builtin, row.history, present.gait, row.revision, saved.gait, saved_at, notice
         )
-        return replace(opened, kept_approval=row.approval)
+        return replace(opened, kept_approval=row.approval, revoked=row.revoked)
 
     def saved(self, gait_id: str) -> Gait:
         """A gait's document as saved or built in.
@@ -113,9 +112,8 @@ class GaitRepository:
         self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
     ) -> None:
         """Keeps an edited gait in the database, with version and approval record; its file stays."""
-        kept = open_gait.kept_approval
-        approval = kept if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
-        row = EditHistoryRow(open_gait.revision, open_gait.history, open_gait.notice, approval)
+        state = (open_gait.revision, open_gait.history, open_gait.notice)
+        row = EditHistoryRow(*state, open_gait.approval_text, open_gait.revoked)
         self._edits.put(open_gait.id, row, self._stored.get(open_gait.id), version, record)
         self._stored[open_gait.id] = open_gait.history
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from app.common.json import Json
 from app.documents.stored_gait import stored_gait
-from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
+from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved
 from app.gaits.known_times import KnownTimes
 from app.gaits.normalise import normalise, normalise_imported
 from app.gaits.open_gait import OpenGait, gait_text
@@ -183,16 +183,16 @@ class GaitService:
         return plan
 
     def _seen(self, before: OpenGait, now: OpenGait) -> None:
-        """Takes a gait with its plan over; an approval that it took away is gone in the database too.
+        """Takes a gait with its plan over, and keeps what that made of its approval.
 
-        People can look at a gait even if the disk takes nothing: what stays there lapses anew at each start.
+        People can look at a gait even if the disk takes nothing: the same is found anew at each start.
         """
         self._open[now.id] = now
         plan = self._plans.known(now)
         if plan is not None:
             self.times.keep(now.id, now.gait, plan)
-        if (before.approval or before.kept_approval) and not (now.approval or now.kept_approval):
-            with left_undone(f"The lapsed approval of {now.id} is still in the database"):
+        if before.approval_text != now.approval_text:
+            with left_undone(f"The approval of {now.id} is in the database as it was before"):
                 self._put(now)
 
     def planned(self, gait: Gait) -> Plan:
@@ -458,9 +458,8 @@ class GaitService:
     def confirmed(self, gait_id: str) -> OpenGait:
         """The gait, without its approval where the verdict of this moment is not the approved one."""
         plan, open_gait = self.plan(gait_id), self.open_gait(gait_id)
-        if is_confirmed(open_gait, plan, self._verdict_of):
-            return open_gait
-        return self._put(open_gait.unapproved("The check gives another result than before"))
+        confirmed = open_gait.confirmed(plan, self._verdict_of)
+        return open_gait if confirmed is open_gait else self._put(confirmed)
 
     def _verdict_of(self, plan: Plan, gait: Gait) -> Verdict:
         return verdict_of(plan, gait, self._simulated_for(plan))

@@ -163,7 +163,7 @@ def plan_view(plan: Plan) -> Json:
     refusal = plan.refusal
     limits = plan.model.stroke
     content: Json = {
-        "hash": plan.hash,
+        "hash": plan.session_hash,
         "source": plan.source.value,
         "note": plan.note,
         "seconds": plan.seconds,

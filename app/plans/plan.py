@@ -136,9 +136,12 @@ class Plan:
         failed = self.live is not None and self.live.status is SolveStatus.FAILED
         return failed or any(part.broke_off for part in self.parts)
 
-    @property
-    def hash(self) -> str:
-        """SHA-256 that changes with anything that is seen or sent."""
+    @cached_property
+    def session_hash(self) -> str:
+        """SHA-256 that changes with anything that is seen or sent, of this process only and never stored.
+
+        It is of raw numbers, whose last digits differ from one processor to another.
+        """
         digest = hashlib.sha256(f"{self.source}{self.model.name}".encode())
         if self.trajectory is not None:
             t = self.trajectory
@@ -147,6 +150,12 @@ class Plan:
         if self.way is not None:
             digest.update(self.way.waypoints.strokes.tobytes())
         return digest.hexdigest()
+
+    @property
+    def approvable(self) -> tuple[bool, str, str | None]:
+        """What an approval of it rests on: whether it is a draft, and hashes of robot and waypoints."""
+        waypoints = None if self.waypoints is None else self.waypoints.content_hash
+        return self.is_draft, self.model.parameters_hash, waypoints
 
     @property
     def balance(self) -> float | None:

@@ -40,7 +40,7 @@ async def ghost(gait_id: str, of: Version, studio: TheStudio) -> Response:
 async def reach(gait_id: str, plan: str, workspace: Workspace, studio: TheStudio) -> dict[str, Any]:
     """Where each foot can be at the body's height of each sample."""
     shown = await on_planned(studio, gait_id, lambda: studio.gaits.plan(gait_id))
-    if shown.hash != plan:
+    if shown.session_hash != plan:
         shown = studio.live.kept(plan)
     return await run_in_threadpool(reach_table, shown.model, _motion(shown), workspace)
 

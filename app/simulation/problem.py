@@ -3,6 +3,7 @@
 import hashlib
 import json
 from dataclasses import asdict, fields
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from core.wire.waypoint_merging import WaypointPlan
 
 FORM = 2
 """Of what is kept of a simulation; grows with a change of the physics or its report between versions."""
+SAME_DECIMALS = 6
+"""Of s, m and rad: times and places that agree to them are the same."""
 
 
 def simulation_problem(plan: Plan, physics: PhysicsSet) -> SimulationProblem:
@@ -63,10 +66,24 @@ def _has_masses(model: RobotModel, physics: PhysicsSet) -> bool:
 
 
 def simulation_key(plan: Plan, physics: PhysicsSet) -> str:
-    """Hash of everything that a simulation of a plan depends on, this program's version included."""
+    """Hash of everything that a simulation of a plan depends on, this program's version included.
+
+    No last digit of a computer's own is in it. Where feet and body are follows from strokes and contact.
+    """
+    parts: list[Any] = [VERSION, FORM, plan.model.parameters_hash, physics_content(physics)]
+    if plan.trajectory is not None and plan.way is not None:
+        way, start = plan.way, plan.trajectory
+        placed = (start.body_world[0], start.heading[:1], way.times)
+        parts += [way.waypoints.content_hash, way.kept, way.contact.tolist(), way.standing.tolist()]
+        parts += [(np.round(values, SAME_DECIMALS) + 0.0).tolist() for values in placed]
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+
+
+def key_before(plan: Plan, physics: PhysicsSet) -> str:
+    """What the same was kept under before: a hash of the plan's raw numbers, as this computer makes them."""
     waypoints = "" if plan.waypoints is None else plan.waypoints.content_hash
     robot, parameters = plan.model.parameters_hash, json.dumps(physics_content(physics), sort_keys=True)
-    parts = [VERSION, str(FORM), robot, plan.hash, waypoints, parameters]
+    parts = [VERSION, "2", robot, plan.session_hash, waypoints, parameters]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 

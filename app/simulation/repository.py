@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 
 from app.common.json import Json
 from app.plans.plan import Plan
-from app.simulation.problem import report_from_content, simulation_key, simulation_problem
+from app.simulation.problem import key_before, report_from_content, simulation_key, simulation_problem
 from app.store.simulation_store import SimulationRow, SimulationStore
 from core.checks.simulation import Simulated
 from core.errors import NotFoundError
@@ -74,10 +74,10 @@ class SimulationRepository:
         """
         if plan.waypoints is None:
             return None
-        sets = {simulation_key(plan, physics): physics for physics in self._sets()}
+        rows = self._log.of_waypoints(plan.waypoints.content_hash)
+        sets = self._sets_of(plan) if rows else {}
         usual = default_physics(plan.model).name
-        rows = [row for row in self._log.of_waypoints(plan.waypoints.content_hash) if row.key in sets]
-        for row in sorted(rows, key=lambda row: row.physics != usual):
+        for row in sorted((row for row in rows if row.key in sets), key=lambda row: row.physics != usual):
             content = self._log.content(row.key)
             if content is not None:
                 problem = simulation_problem(plan, sets[row.key])
@@ -86,4 +86,8 @@ class SimulationRepository:
 
     def keys_of(self, plan: Plan) -> frozenset[str]:
         """What simulations of a plan are kept under, with each physics set."""
-        return frozenset(simulation_key(plan, physics) for physics in self._sets())
+        return frozenset(self._sets_of(plan))
+
+    def _sets_of(self, plan: Plan) -> dict[str, PhysicsSet]:
+        keys = (simulation_key, key_before)
+        return {key(plan, physics): physics for physics in self._sets() for key in keys}

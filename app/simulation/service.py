@@ -84,7 +84,6 @@ class _Work:
 
     job: Json
     row: SimulationRow
-    plan: str
     physics: PhysicsSet
     problem: SimulationProblem
     handle: SimulationHandle
@@ -142,7 +141,7 @@ class SimulationService:
             handle.cancel()
             raise
         row = SimulationRow(open_gait.id, key, problem.waypoints.content_hash, physics.name, time.time())
-        work = _Work(job, row, plan.hash, physics, problem, handle)
+        work = _Work(job, row, physics, problem, handle)
         self._running.begin(job_id, handle)
         thread = threading.Thread(target=self._await, args=(work,), name=f"simulation-{job_id}", daemon=True)
         self._waiting = [one for one in self._waiting if one.is_alive()] + [thread]
@@ -181,7 +180,6 @@ def _content(work: _Work, answer: SimulationResult) -> Json:
     content: Json = {
         "key": work.row.key,
         "gait": work.row.gait,
-        "plan": work.plan,
         "robot": work.problem.model.name,
         "waypoints_hash": work.row.waypoints,
         "program": VERSION,

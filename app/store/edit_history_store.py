@@ -31,6 +31,7 @@ class EditHistoryRow:
     history: History
     notice: str | None
     approval: str | None
+    revoked: str | None = None
 
 
 @dataclass(frozen=True)
@@ -75,17 +76,17 @@ class EditHistoryStore:
             InputError: what is kept of it contradicts itself.
         """
         rows = self._database.rows(
-            "SELECT revision, last, done, undone, notice, approval FROM open_gait WHERE gait=?", gait
+            "SELECT revision, last, done, undone, notice, approval, revoked FROM open_gait WHERE gait=?", gait
         )
         if not rows:
             return None
-        revision, last, done, undone, notice, approval = rows[0]
+        revision, last, done, undone, notice, approval, revoked = rows[0]
         entries = self.entries(gait)
         history = History(entries, last, _actions(done, gait), _actions(undone, gait))
         edits = [action.position for action in (*history.done, *history.undone)]
         if not {last, *edits, *(position - 1 for position in edits)} <= entries.keys():
             raise InputError(_MISSING.format(gait), gait)
-        return EditHistoryRow(revision, history, notice, approval)
+        return EditHistoryRow(revision, history, notice, approval, revoked)
 
     def entries(self, gait: str) -> dict[int, LogEntry]:
         """Every document of a gait's history, by position."""
@@ -164,8 +165,8 @@ class EditHistoryStore:
                 [(gait, at, e.label, e.document, e.author.page, e.author.name) for at, e in added],
             )
             connection.execute(
-                "INSERT OR REPLACE INTO open_gait(gait, revision, last, done, undone, notice, approval) "
-                "VALUES(?,?,?,?,?,?,?)",
+                "INSERT OR REPLACE INTO open_gait"
+                "(gait, revision, last, done, undone, notice, approval, revoked) VALUES(?,?,?,?,?,?,?,?)",
                 (
                     gait,
                     row.revision,
@@ -174,6 +175,7 @@ class EditHistoryStore:
                     json.dumps([astuple(action) for action in history.undone]),
                     row.notice,
                     row.approval,
+                    row.revoked,
                 ),
             )
             if version is not None:

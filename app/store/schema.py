@@ -180,6 +180,11 @@ def _add_turn_rates(connection: sqlite3.Connection) -> None:
     connection.execute("ALTER TABLE times ADD COLUMN turn_rate REAL")
 
 
+def _add_reasons(connection: sqlite3.Connection) -> None:
+    """Why each gait's last approval is gone."""
+    connection.execute("ALTER TABLE open_gait ADD COLUMN revoked TEXT")
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
@@ -190,6 +195,7 @@ _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_learning,
     _add_times,
     _add_turn_rates,
+    _add_reasons,
 )
 
 NEWEST = len(_MIGRATIONS)

@@ -272,7 +272,7 @@ async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> Json:
 async def poses(gait_id: str, plan: str, studio: TheStudio) -> Response:
     """Every moving part's pose over the plan, for playback; binary."""
     shown = await on_planned(studio, gait_id, lambda: studio.gaits.plan(gait_id))
-    if shown.hash != plan:
+    if shown.session_hash != plan:
         shown = studio.live.kept(plan)
     trajectory = shown.moved
     if trajectory is None:

@@ -15,7 +15,8 @@ export function simulationOf({ simulation, view }) {
 /** The simulation of exactly the plan that is shown, or null: an edit, an iteration and another plan have none. */
 export function simulationOver(state) {
   const simulation = simulationOf(state);
-  return simulation && state.view.simulation.fresh && simulation.plan === shownPlan(state)?.hash ? simulation : null;
+  if (!simulation || !state.view.simulation.fresh) return null;
+  return simulation.waypoints_hash === shownPlan(state)?.waypoints_hash ? simulation : null;
 }
 
 /** The plan's time of a moment of the simulated robot, straight between samples. */

@@ -58,7 +58,8 @@ export function checkState(now) {
     return state("done", count ? `passed, ${count === 1 ? "1 warning" : `${count} warnings`}` : "passed");
   }
   const before = checked[view.id];
-  if (view.verdict || view.revoked || before) return state("old", before?.revision === view.revision ? "out of date" : "before this edit");
+  const isBeforeEdit = isEdited(now) || (before && before.revision !== view.revision);
+  if (view.verdict || view.revoked || before) return state("old", isBeforeEdit ? "before this edit" : "out of date");
   return state("none", "not yet");
 }
 

@@ -143,7 +143,7 @@ def test_a_plan_that_differs_in_its_heading_alone_has_another_hash() -> None:
     plan = make_plan(WALK, None, lambda problem: result_of(problem, SolveStatus.INFEASIBLE))
     assert plan.trajectory is not None
     turned = replace(plan.trajectory, heading=plan.trajectory.heading + 0.1)
-    assert replace(plan, trajectory=turned).hash != plan.hash
+    assert replace(plan, trajectory=turned).session_hash != plan.session_hash
 
 
 @pytest.mark.parametrize(("status", "is_known"), [(SolveStatus.SOLVED, True), (SolveStatus.FAILED, False)])
@@ -160,7 +160,7 @@ def test_a_motion_that_was_found_already_is_not_asked_for_again() -> None:
     tier, service = tiers()
     plan = service.plan_with(WALK, solve_live(motion_problem(WALK, load_robot(WALK.robot))))
     assert tier.asked == 0
-    assert service.plan(WALK).hash == plan.hash
+    assert service.plan(WALK).session_hash == plan.session_hash
     assert tier.asked == 0
 
 
@@ -214,7 +214,7 @@ def test_the_newest_plans_are_kept_by_hash_and_older_ones_make_room() -> None:
         service.answer(replace(WALK, step=heading_step(WALK.orientation, step)))["plan"]["hash"]
         for step in np.linspace(0.001, 0.02, MOST_PLANS + 1)
     ]
-    assert service.kept(hashes[-1]).hash == hashes[-1]
+    assert service.kept(hashes[-1]).session_hash == hashes[-1]
     assert service.kept(hashes[1]).trajectory is not None
     with pytest.raises(StateError, match="changed meanwhile"):
         service.kept(hashes[0])

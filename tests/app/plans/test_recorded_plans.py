@@ -98,7 +98,7 @@ def test_it_is_checked_approved_and_kept_over_a_restart(
     service.approve(gait_id, ApprovalRequest("Ada", accept_warnings=True))
     database = Database(tmp_path / "studio.sqlite3")
     again = GaitService(GaitFiles(tmp_path), database, lambda gait: no_solver)
-    assert again.plan(gait_id).hash == service.plan(gait_id).hash
+    assert again.plan(gait_id).session_hash == service.plan(gait_id).session_hash
     assert again.open_gait(gait_id).approval is not None
     database.close()
 
@@ -252,7 +252,7 @@ def test_waypoints_become_a_gait_that_sends_the_same_strokes(motion: Trajectory)
         "again.csv",
         companion=export(source, ExportFormat.COMPANION).content.decode(),
     )
-    assert planned(again.gait).hash == plan.hash
+    assert planned(again.gait).session_hash == plan.session_hash
 
 
 def test_a_ring_of_six_modules_is_recorded_and_sent_as_well() -> None:

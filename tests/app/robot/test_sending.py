@@ -32,7 +32,7 @@ def test_sending_changes_the_waypoints_and_no_result() -> None:
     plans = [make_plan(gait, None, solve_live) for gait in (WALK, whole, WALK.with_options(stop_bound=0.8))]
     hashes = {plan.waypoints.content_hash for plan in plans if plan.waypoints is not None}
     assert len(hashes) == 3
-    assert len({plan.hash for plan in plans}) == 3
+    assert len({plan.session_hash for plan in plans}) == 3
 
 
 @pytest.mark.parametrize(

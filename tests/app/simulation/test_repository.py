@@ -11,6 +11,7 @@ import pytest
 from app.common.version import VERSION
 from app.plans.plan import Plan, make_plan
 from app.simulation.problem import (
+    key_before,
     physics_content,
     report_content,
     report_from_content,
@@ -108,6 +109,47 @@ def test_what_another_program_computed_is_no_simulation_of_today(
     standing = kept.standing(GAIT, walk_plan())
     assert standing is not None
     assert not standing["fresh"]
+
+
+def with_noise(plan: Plan, amount: float) -> Plan:
+    """The plan with other last digits, as another computer makes it."""
+    assert plan.way is not None
+    assert plan.trajectory is not None
+    trajectory = replace(plan.trajectory, body_world=plan.trajectory.body_world + amount)
+    waypoints = replace(plan.way.waypoints, strokes=plan.way.waypoints.strokes + amount)
+    way = replace(plan.way, waypoints=waypoints, times=plan.way.times + amount)
+    return replace(plan, trajectory=trajectory, way=way)
+
+
+def test_a_simulation_is_found_on_a_computer_whose_last_digits_are_others(
+    kept: SimulationRepository,
+) -> None:
+    key = put(kept, walk_plan())
+    other = with_noise(walk_plan(), 1e-12)
+    assert other.session_hash != walk_plan().session_hash
+    assert kept.is_fresh(GAIT, key, other)
+    assert kept.simulated(other) is not None
+    assert not kept.is_fresh(GAIT, key, with_noise(walk_plan(), 1e-6))
+
+
+def test_a_simulation_is_of_the_feet_that_stand_and_of_where_the_walk_begins() -> None:
+    plan = walk_plan()
+    assert plan.way is not None
+    assert plan.trajectory is not None
+    ways = [replace(plan.way, **{name: ~getattr(plan.way, name)}) for name in ("contact", "standing")]
+    turned = replace(plan.trajectory, heading=plan.trajectory.heading + 0.1)
+    plans = (plan, *(replace(plan, way=way) for way in ways), replace(plan, trajectory=turned))
+    assert len({simulation_key(one, physics_set()) for one in plans}) == 4
+
+
+def test_a_simulation_that_an_earlier_program_kept_is_found_by_the_key_that_it_had(
+    kept: SimulationRepository,
+) -> None:
+    old = replace(row_of(walk_plan(), physics_set()), key=key_before(walk_plan(), physics_set()))
+    kept.put(old, {"report": report_content(walk_report()), "variations": None})
+    assert kept.is_fresh(GAIT, old.key, walk_plan())
+    assert kept.simulated(walk_plan()) is not None
+    assert not kept.is_fresh(GAIT, old.key, shorter_plan())
 
 
 def test_variations_stay_where_the_same_is_simulated_without_them(kept: SimulationRepository) -> None:

@@ -114,11 +114,22 @@ def test_every_gait_of_the_list_can_be_opened(opened: Opened) -> None:
 def test_an_approval_stands_or_the_page_is_told_why_it_does_not(opened: Opened) -> None:
     for gait in opened.kept["approved gaits"]:
         view = opened.client.get(f"/api/gaits/{gait}/view")
-        assert view["approval"] is not None or view["revoked"], gait
-        if view["approval"] is not None:
-            numbers = {one["waypoints_hash"] for one in opened.kept["approvals"][gait]}
-            assert view["approval"]["waypoints_hash"] == view["plan"]["waypoints_hash"]
-            assert view["approval"]["waypoints_hash"] in numbers
+        approved = opened.kept["approvals"][gait][0]
+        stands = [one["stands"] for one in opened.client.get(f"/api/gaits/{gait}/approvals")["approvals"]]
+        if approved["waypoints_hash"] == view["plan"]["waypoints_hash"]:
+            assert view["approval"]["waypoints_hash"] == approved["waypoints_hash"]
+            assert (view["revoked"], stands.count(True), stands[0]) == (None, 1, True)
+        else:
+            assert (view["approval"], any(stands)) == (None, False)
+            assert "makes other waypoints" in view["revoked"]
+            assert f"the approval by {approved['by']} of " in view["revoked"]
+
+
+def test_a_simulation_of_what_is_still_sent_is_fresh(opened: Opened) -> None:
+    for gait, kept in opened.kept["simulations"].items():
+        view = opened.client.get(f"/api/gaits/{gait}/view")
+        if kept["waypoints_hash"] == view["plan"]["waypoints_hash"]:
+            assert view["simulation"]["fresh"], gait
 
 
 def test_a_run_whose_program_was_killed_is_ended_and_its_journal_taken(opened: Opened) -> None:

@@ -1,14 +1,24 @@
-"""The check on the page: warnings want a tick, an edit takes the approval away, approvals are compared."""
+"""The check on the page: warnings want a tick, an edit takes the approval away, approvals are compared.
+
+Where an approval lapsed without an edit, the page says whose it was and why.
+"""
 
 from __future__ import annotations
 
+import json
 import re
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from app.gaits.approvals import ApprovalRequest
+from app.gaits.service import GaitService
+from app.store.database import DATABASE, Database
+from app.store.gait_files import GaitFiles
 from tests.support.page.opened import look, opened_page
-from tests.support.studio_process import StudioProcess
+from tests.support.simulated_walk import GAIT, no_solver
+from tests.support.studio_process import StudioProcess, running_studio
 
 pytestmark = pytest.mark.heavy
 
@@ -60,3 +70,34 @@ def test_warnings_want_a_tick_and_the_approvals_of_a_gait_are_compared(
         expect(changed).to_contain_text("Other waypoints")
         changed.scroll_into_view_if_needed()
         look(page, "approvals")
+
+
+def keep_approval_of_other_waypoints(data: Path) -> None:
+    """Keeps an approval by Ada as a program kept it that made other waypoints from the gait."""
+    database = Database(data / DATABASE)
+    service = GaitService(GaitFiles(data), database, lambda gait: no_solver)
+    service.check(GAIT)
+    approval = service.approve(GAIT, ApprovalRequest("Ada", accept_warnings=True)).approval_text
+    assert approval is not None
+    other = json.loads(approval) | {"waypoints_hash": "0" * 64, "verdict_hash": "0" * 64}
+    with database.writing() as connection:
+        connection.execute("UPDATE open_gait SET approval=? WHERE gait=?", (json.dumps(other), GAIT))
+    database.close()
+
+
+def test_the_page_says_whose_approval_an_update_of_the_program_took_away_and_why(
+    browser: Browser, tmp_path: Path
+) -> None:
+    keep_approval_of_other_waypoints(tmp_path)
+    size = (1280, 720)
+    with running_studio(tmp_path) as studio, opened_page(browser, studio.url, *size, has_scene=False) as page:
+        page.evaluate(f"localStorage.setItem('footfall.gait', '{GAIT}')")
+        page.reload()
+        page.get_by_role("tab", name="Check & approve").click()
+        said = page.get_by_text(
+            re.compile(r"makes other waypoints from the gait .* by Ada of [\d-]+ is no longer")
+        )
+        expect(said).to_be_visible()
+        expect(page.get_by_text("out of date").first).to_be_visible()
+        expect(page.get_by_text("before this edit")).to_have_count(0)
+        look(page, "lapsed")

@@ -119,16 +119,16 @@ OVERS = """async () => {
   const { oversOf } = await import("/static/plots/measured.js");
   const feet = [[[0, 0, 0]], [[0, 0, 0.001]]];
   const motion = { times: [0, 1], strokes_mm: [[1], [2]], feet, margins_mm: [3, null] };
-  const simulation = { key: "k", plan: "p", motion };
+  const simulation = { key: "k", waypoints_hash: "p", motion };
   const run = { gait: "g", strokes: { plan_times: [0, 1], laps: [0, 0], measured_mm: [[1], [3]] } };
-  const view = { plan: { hash: "p" }, simulation: { key: "k", fresh: true } };
-  const stale = { plan: { hash: "q" }, simulation: { key: "k", fresh: false } };
+  const view = { plan: { waypoints_hash: "p" }, simulation: { key: "k", fresh: true } };
+  const stale = { plan: { waypoints_hash: "q" }, simulation: { key: "k", fresh: false } };
   const words = (state, strip) => oversOf({ selected: "g", view, ...state }, strip).map(({ word }) => word);
   return {
     both: words({ simulation, run }, "strokes"),
     simulated: words({ simulation }, "margin"),
     stale: words({ simulation, run, view: stale }, "strokes"),
-    iterate: words({ simulation, iterate: { plan: { hash: "i" } } }, "strokes"),
+    iterate: words({ simulation, iterate: { plan: { waypoints_hash: "i" } } }, "strokes"),
   };
 }"""
 

@@ -144,6 +144,7 @@ class Verdict:
             known, or where they are sent as they are.
         notes: sentences on what the figures leave out.
         robot_hash: of the robot's parameters, so that a verdict on other parameters is another one.
+        simulation: key of the simulation that was judged; empty where none was.
     """
 
     waypoints_hash: str
@@ -152,6 +153,7 @@ class Verdict:
     costs: tuple[SendCost, ...] = ()
     notes: tuple[str, ...] = ()
     robot_hash: str = ""
+    simulation: str = ""
 
     @property
     def warnings(self) -> tuple[Finding, ...]:
@@ -165,14 +167,14 @@ class Verdict:
 
     @property
     def content_hash(self) -> str:
-        """SHA-256 over what an approval is bound to: waypoints, robot, the rules, and what they found.
+        """SHA-256 over what an approval is bound to: waypoints, robot, simulation, rules, what they found.
 
         Margins, sentences, costs and notes are left out: they change with a processor's last digits, or with
         a word.
         """
         rules = sorted({margin.rule for margin in self.margins})
         found = sorted({finding.identity for finding in self.findings}, key=str)
-        content = [VERDICT_FORM, self.waypoints_hash, self.robot_hash, rules, found]
+        content = [VERDICT_FORM, self.waypoints_hash, self.robot_hash, self.simulation, rules, found]
         return hashlib.sha256(json.dumps(content).encode()).hexdigest()
 
 

@@ -1,7 +1,7 @@
-"""A kept approval beside the verdict of today: whether it is of it, and if not, what is different."""
+"""Whether a kept approval still matches today's verdict, and if not, why."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import Any
 
@@ -9,6 +9,9 @@ from core.findings import VERDICT_FORM, Approval, Verdict
 
 _FIGURE = re.compile(r"[-−]?\d+\.\d+")
 """A measured figure in a sentence; numbers of feet, motors and samples have no decimals."""
+
+LAST_DIGIT = 0.1 + 1e-9
+"""Most by which rounding changes a figure in a sentence."""
 
 
 def approval_of(content: dict[str, Any]) -> Approval:
@@ -22,11 +25,11 @@ def in_todays_form(approval: Approval, verdict: Verdict) -> Approval:
     """An approval of the first form, bound to today's verdict; as it is where that may be another one.
 
     Its hash cannot be compared. It shows waypoints, robot and the sentences of the warnings that its person
-    has seen: these have to be today's, but for decimals in them, and no error may stand.
+    has seen: these have to be today's, but for the last digit of figures, and no error may stand.
     """
     if approval.form != 1 or _other_bound(approval, verdict) is not None or not verdict.passed:
         return approval
-    if _without_figures(approval.warnings) != _without_figures(f.sentence for f in verdict.warnings):
+    if not _read_alike(sorted(approval.warnings), sorted(f.sentence for f in verdict.warnings)):
         return approval
     return replace(approval, verdict_hash=verdict.content_hash, form=VERDICT_FORM)
 
@@ -36,20 +39,27 @@ def what_changed(approval: Approval, verdict: Verdict) -> str | None:
     if approval.verdict_hash == verdict.content_hash:
         return None
     return _other_bound(approval, verdict) or (
-        "The check gives another result than the approved one (other findings, other rules, or no simulation "
-        "any more)"
+        "The check has other findings or rules than the approved one, or a simulation was added or is gone"
     )
 
 
 def _other_bound(approval: Approval, verdict: Verdict) -> str | None:
     if not approval.robot_hash:
-        return "It is not known which parameters of the robot were approved"
+        return "The approval does not record the robot's parameters"
     if approval.robot_hash != verdict.robot_hash:
         return "The robot's parameters are not those that were approved"
     if approval.waypoints_hash != verdict.waypoints_hash:
-        return "This version of the program makes other waypoints from the gait than those that were approved"
+        return "The gait's waypoints are not the approved ones any more, as after an update of the program"
     return None
 
 
-def _without_figures(sentences: Iterable[str]) -> list[str]:
-    return sorted(_FIGURE.sub("#", sentence) for sentence in sentences)
+def _read_alike(seen: Sequence[str], today: Sequence[str]) -> bool:
+    """Whether sentences have the same words, and figures that differ by a last digit at most."""
+    if [_FIGURE.sub("#", one) for one in seen] != [_FIGURE.sub("#", one) for one in today]:
+        return False
+    pairs = zip(_figures(seen), _figures(today), strict=True)
+    return all(abs(one - other) <= LAST_DIGIT for one, other in pairs)
+
+
+def _figures(sentences: Sequence[str]) -> list[float]:
+    return [float(text.replace("−", "-")) for one in sentences for text in _FIGURE.findall(one)]

@@ -80,8 +80,11 @@ class SimulationRepository:
         for row in sorted((row for row in rows if row.key in sets), key=lambda row: row.physics != usual):
             content = self._log.content(row.key)
             if content is not None:
-                problem = simulation_problem(plan, sets[row.key])
-                return Simulated(report_from_content(content["report"]), problem)
+                physics = sets[row.key]
+                problem = simulation_problem(plan, physics)
+                return Simulated(
+                    report_from_content(content["report"]), problem, simulation_key(plan, physics)
+                )
         return None
 
     def keys_of(self, plan: Plan) -> frozenset[str]:

@@ -62,7 +62,7 @@ def _balance_outcome(
             words = f"At {times[worst]:.1f} s no foot stands {span}: the robot falls."
             findings.append(found("balance", Severity.ERROR, words, KEEP_THREE, None, 0.0, **place))
             continue
-        value = float(margins[worst])
+        value = float(margins[first : last + 1].min())
         tips = value < -judged.slack
         short = f"less than the {asked * 1000:.1f} mm that the gait asks for"
         outcome = (

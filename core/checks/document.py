@@ -64,7 +64,7 @@ def check_height(plan: CheckedPlan, expected: tuple[float, float]) -> Outcome:
     heights = plane_heights(plan)[[0, -1]]
     gaps = np.abs(heights - expected)
     end = int(first_highest(gaps))
-    gap = float(gaps[end])
+    gap = float(gaps.max())
     margin = RuleMargin("height", HEIGHT_LIMIT - gap, "m")
     if gap <= HEIGHT_LIMIT + TOLERANCE:
         return Outcome(margin)

@@ -5,17 +5,19 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Floats, first_highest, first_place
+from core.arrays import SAME, Floats, first_highest, first_place
 from core.checks.checked_plan import CheckedPlan, knot_place
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.motion.speeds import motor_accelerations, motor_speeds
 from core.robot.model import RobotModel
 from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
-from core.wire.robot_time import ARRIVAL_THRESHOLD, ARRIVED, deafness, largest_moves
+from core.wire.robot_time import ARRIVAL_THRESHOLD, ARRIVED, deafness, largest_moves, ramp_time
 from core.wire.waypoints import Waypoints
 
 DEAF_LIMIT = 2.5
 """A plan during which the robot does not hear Stop for longer is not fit, s."""
+DEAF_SLACK = ramp_time(SAME)
+"""What the limit may be passed by before it counts, s: as much as cutting long moves leaves."""
 
 
 def check_strokes(model: RobotModel, waypoints: Waypoints, times: Floats | None = None) -> Outcome:
@@ -53,7 +55,7 @@ def check_deafness(waypoints: Waypoints, kept: Sequence[int] | None = None) -> O
     """
     seconds = deafness(waypoints)
     margin = RuleMargin("deafness", DEAF_LIMIT - seconds, "s")
-    if seconds <= DEAF_LIMIT + TOLERANCE:
+    if seconds <= DEAF_LIMIT + DEAF_SLACK:
         return Outcome(margin)
     number = int(first_highest(largest_moves(waypoints))) + 1
     words = (
@@ -202,6 +204,6 @@ def _worst(plan: CheckedPlan, values: Floats, unit: str) -> tuple[float, dict[st
     """The largest of (n, legs, 3) values, its place, and what motor needs it, in words."""
     sample, foot, actuator = first_place(values)
     place = {**knot_place(plan, sample), "foot": foot, "actuator": actuator}
-    value = float(values[sample, foot, actuator])
+    value = float(values.max())
     motor = f"Motor {actuator + 1} of foot {foot + 1}"
     return value, place, f"{motor} would need {value * 1000:.1f} {unit} after sample {sample + 1}"

@@ -142,7 +142,7 @@ def _balance(path: ExecutedPath) -> _Worst | None:
     tips = bool((path.propped_margins < -BALANCE_SLACK).any())
     margins = path.propped_margins if tips else path.margins
     place = int(first_lowest(margins))
-    value = float(margins[place])
+    value = float(margins.min())
     standing = ", ".join(str(foot + 1) for foot in np.nonzero(path.standing[place])[0])
     words = f"the centre of mass is {abs(value) * 1000:.2f} mm outside the support of feet {standing}"
     if not standing:
@@ -156,7 +156,7 @@ def _balance(path: ExecutedPath) -> _Worst | None:
 def _ground(path: ExecutedPath) -> _Worst | None:
     gaps = np.where(path.standing, np.abs(np.nan_to_num(path.heights)), 0.0)
     place, foot = first_place(gaps)
-    gap = float(gaps[place, foot])
+    gap = float(gaps.max())
     words = (
         f"foot {foot + 1}, which should stand, is {gap * 1000:.2f} mm off the plane of the standing feet, "
         f"more than {GROUND_LIMIT * 1000:.1f} mm"

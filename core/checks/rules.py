@@ -61,6 +61,8 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
     outcomes += check_simulation(simulated)
     findings = [finding for outcome in outcomes for finding in outcome.findings]
     verdict = _verdict(plan.model, plan.waypoints, [*findings, *check_origin(plan)], outcomes)
+    if simulated is not None:
+        verdict = replace(verdict, simulation=simulated.key)
     notes = [acceleration_note(plan), simulation_note(simulated)]
     if plan.way is not None:
         if not plan.asked.sent_whole:

@@ -19,10 +19,12 @@ class Simulated:
     Args:
         report: what came of it.
         problem: what was asked.
+        key: hash of everything that it depends on.
     """
 
     report: SimulationReport
     problem: SimulationProblem
+    key: str = ""
 
 
 def check_simulation(simulated: Simulated | None) -> list[Outcome]:

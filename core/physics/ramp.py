@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats
-from core.wire.robot_time import ARRIVAL_THRESHOLD, PUBLISHED, far_motors, ramp_time
+from core.wire.robot_time import ARRIVAL_THRESHOLD, ARRIVED, PUBLISHED, far_motors, ramp_time
 from core.wire.waypoints import Waypoints
 
 TURN = 0.01
@@ -75,7 +75,7 @@ class _Builder:
         self._hold(PUBLISHED.arrived)
         moves = np.abs(waypoint - self.strokes[-1][-1])
         distance = float(moves.max())
-        if distance <= ARRIVAL_THRESHOLD:
+        if distance <= ARRIVED:
             return
         self._ramp(waypoint, ramp_time(distance))
         self._hold(PUBLISHED.message - PUBLISHED.arrived)

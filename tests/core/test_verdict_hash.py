@@ -31,14 +31,15 @@ def test_last_digits_words_costs_and_notes_make_no_other_verdict() -> None:
     [
         replace(VERDICT, waypoints_hash="other"),
         replace(VERDICT, robot_hash="other"),
+        replace(VERDICT, simulation="other"),
         replace(VERDICT, findings=(SLIP,)),
         replace(VERDICT, findings=(SLIP, FORCE, replace(SLIP, rule="clearance"))),
         replace(VERDICT, margins=(*MARGINS, RuleMargin("arm_distance", 0.1, "m"))),
         replace(VERDICT, margins=MARGINS[:1]),
     ],
-    ids=["waypoints", "robot", "finding less", "finding more", "rule more", "no simulation"],
+    ids=["waypoints", "robot", "simulation", "finding less", "finding more", "rule more", "no simulation"],
 )
-def test_other_waypoints_robot_findings_or_rules_make_another_verdict(other: Verdict) -> None:
+def test_other_waypoints_robot_simulation_findings_or_rules_make_another_verdict(other: Verdict) -> None:
     assert other.content_hash != VERDICT.content_hash
 
 

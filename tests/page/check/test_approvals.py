@@ -95,7 +95,7 @@ def test_the_page_says_whose_approval_an_update_of_the_program_took_away_and_why
         page.reload()
         page.get_by_role("tab", name="Check & approve").click()
         said = page.get_by_text(
-            re.compile(r"makes other waypoints from the gait .* by Ada of [\d-]+ is no longer")
+            re.compile(r"waypoints are not the approved ones .* by Ada of [\d-]+ is no longer")
         )
         expect(said).to_be_visible()
         expect(page.get_by_text("out of date").first).to_be_visible()

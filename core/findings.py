@@ -59,7 +59,7 @@ class Finding:
 
     @property
     def identity(self) -> tuple[str, Severity, int | None, int | None, int | None]:
-        """What tells it from another finding: rule, severity, foot, motor and sample.
+        """Rule, severity, foot, motor and sample, which distinguish it from other findings.
 
         A simulated one has no sample here: when a foot slides most is another moment on another computer.
         """

@@ -140,7 +140,7 @@ class Plan:
     def session_hash(self) -> str:
         """SHA-256 that changes with anything that is seen or sent, of this process only and never stored.
 
-        It is of raw numbers, whose last digits differ from one processor to another.
+        It covers raw numbers, and their last digits differ between processors.
         """
         digest = hashlib.sha256(f"{self.source}{self.model.name}".encode())
         if self.trajectory is not None:
@@ -153,7 +153,7 @@ class Plan:
 
     @property
     def approvable(self) -> tuple[bool, str, str | None]:
-        """What an approval of it rests on: whether it is a draft, and hashes of robot and waypoints."""
+        """What decides whether an approval still fits: draft or not, and hashes of robot and waypoints."""
         waypoints = None if self.waypoints is None else self.waypoints.content_hash
         return self.is_draft, self.model.parameters_hash, waypoints
 

@@ -80,7 +80,7 @@ def simulation_key(plan: Plan, physics: PhysicsSet) -> str:
 
 
 def key_before(plan: Plan, physics: PhysicsSet) -> str:
-    """What the same was kept under before: a hash of the plan's raw numbers, as this computer makes them."""
+    """Key under which earlier versions stored the same simulation: a hash of the plan's raw numbers."""
     waypoints = "" if plan.waypoints is None else plan.waypoints.content_hash
     robot, parameters = plan.model.parameters_hash, json.dumps(physics_content(physics), sort_keys=True)
     parts = [VERSION, "2", robot, plan.session_hash, waypoints, parameters]

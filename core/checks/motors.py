@@ -17,7 +17,7 @@ from core.wire.waypoints import Waypoints
 DEAF_LIMIT = 2.5
 """A plan during which the robot does not hear Stop for longer is not fit, s."""
 DEAF_SLACK = ramp_time(SAME)
-"""What the limit may be passed by before it counts, s: as much as cutting long moves leaves."""
+"""Excess over the limit that is no finding, s: cutting long moves leaves as much."""
 
 
 def check_strokes(model: RobotModel, waypoints: Waypoints, times: Floats | None = None) -> Outcome:

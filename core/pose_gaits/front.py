@@ -27,7 +27,7 @@ class FrontPoint:
 
     @property
     def goods(self) -> tuple[float, float, float]:
-        """What is compared, the more the better."""
+        """Objectives; larger is better."""
         return self.margin, -self.stop_bound, -pace_rank(self.pace)
 
     def dominates(self, other: "FrontPoint") -> bool:

@@ -11,7 +11,7 @@ equal to 1e-10."""
 
 
 def pace_rank(pace: float) -> float:
-    """What gaits are sorted by, the fastest first; of gaits that are as fast the order stays."""
+    """Sort key that puts the fastest gait first and keeps the order of gaits that are equally fast."""
     return -round(pace, PACE_DECIMALS)
 
 

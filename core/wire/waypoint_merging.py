@@ -24,7 +24,7 @@ from core.wire.waypoints import Waypoints
 ON_GROUND = 0.00025
 """A foot no higher than this over the standing feet is on the ground, whatever its sample is called, m."""
 SAME_SECONDS = 1e-5
-"""Of two ways whose times differ by less, the one found first is taken, s; `SAME` changes a time by less than
+"""If the times of two ways differ by less, the first one is taken, s; `SAME` changes a time by less than
 1e-4 s."""
 JUST_MOVES = math.nextafter(ARRIVED, 1.0)
 """Shortest distance to which the firmware moves, m."""

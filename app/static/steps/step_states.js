@@ -59,7 +59,9 @@ export function checkState(now) {
   }
   const before = checked[view.id];
   const isBeforeEdit = isEdited(now) || (before && before.revision !== view.revision);
-  if (view.verdict || view.revoked || before) return state("old", isBeforeEdit ? "before this edit" : "out of date");
+  if (view.verdict || view.revoked || before) {
+    return state("old", isBeforeEdit ? "before this edit" : "out of date");
+  }
   return state("none", "not yet");
 }
 

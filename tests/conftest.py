@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,6 +13,7 @@ from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.chromium import LONG_MS, WORDS, chromium_path
 from tests.support.patience import patient_robot
 from tests.support.process_defaults import restore_defaults
+from tests.support.spent_seconds import SpentSeconds, known_seconds
 from tests.support.studio_process import StudioProcess, running_studio, said_by_studios
 from tests.support.timeout import harden_timer
 
@@ -34,6 +34,16 @@ TIMER = pytest.StashKey[Callable[[], None]]()
 """Starts the timer of a test again."""
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """An option that measures anew how long each file takes."""
+    parser.addoption("--keep-seconds", action="store_true", help="keep how long each slow file takes")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Has the run end with where its seconds went."""
+    config.pluginmanager.register(SpentSeconds(config.getoption("--keep-seconds")))
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_sessionstart() -> None:
     """Makes the tests independent of how they were started, before any process of theirs starts."""
@@ -43,18 +53,13 @@ def pytest_sessionstart() -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Marks what Hypothesis tries, so that it can be chosen; puts the slow files first.
 
-    Files with a browser take longest, those with a studio come next. Short files at the end keep both lanes
-    busy to the last second.
+    Short files at the end keep both lanes busy to the last second.
     """
-    slowness: dict[Path, int] = {}
     for item in items:
-        if not isinstance(item, pytest.Function):
-            continue
-        if is_hypothesis_test(item.obj):
+        if isinstance(item, pytest.Function) and is_hypothesis_test(item.obj):
             item.add_marker("property")
-        needs = 2 * ("browser" in item.fixturenames) + ("studio" in item.fixturenames)
-        slowness[item.path] = max(needs, slowness.get(item.path, 0))
-    items.sort(key=lambda item: -slowness.get(item.path, 0))
+    seconds = known_seconds()
+    items.sort(key=lambda item: -seconds.get(item.nodeid.partition("::")[0], 0.0))
 
 
 @pytest.hookimpl(wrapper=True)

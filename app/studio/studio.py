@@ -57,6 +57,9 @@ PATTERN_PROCESSES = 2
 LEARNING_PROCESSES = 2
 """Gaits that are simulated at one time while the studio learns from trials; started when first needed."""
 
+STARTS_SOLVERS_AHEAD = True
+"""Whether the live and the exact solver are started and warmed up before they are asked anything."""
+
 
 class _Closable(Protocol):
     def close(self) -> None: ...
@@ -107,8 +110,9 @@ class Studio:
     def _open_gaits(self, files: GaitFiles) -> None:
         """Gaits, their plans, patterns and learned parameters, and what the pages are shown."""
         database, hub = self._database, self.hub
-        self._solver = solver = self._register(LiveSolver(likely_problem()))
-        solver.start()
+        self._solver = solver = self._register(LiveSolver(likely_problem() if STARTS_SOLVERS_AHEAD else None))
+        if STARTS_SOLVERS_AHEAD:
+            solver.start()
         self.live = LivePlans(solver)
         simulators = tuple(self._register(BatchSimulator()) for _ in range(LEARNING_PROCESSES))
         self.learning = self._register(LearningService(database, simulators))
@@ -133,7 +137,9 @@ class Studio:
 
     def _open_jobs(self, data: Path) -> None:
         """Optimisations, simulations, searches and atlases."""
-        runner = self._register(JobQueue(self._job_changed, warm_up=likely_problem()))
+        warm_up = likely_problem() if STARTS_SOLVERS_AHEAD else None
+        queue = JobQueue(self._job_changed, warm_up=warm_up, starts_ahead=STARTS_SOLVERS_AHEAD)
+        runner = self._register(queue)
         self.jobs = OptimisationService(self.job_repository, runner, self._on_result)
         self._simulator = simulator = Simulator()
         shown = self.publisher.publish_simulation

@@ -39,6 +39,7 @@ class JobQueue:
         workers: number of processes.
         time_limit: longest a job may run, s.
         warm_up: a problem of the shape that is likely to come first, solved by each new worker.
+        starts_ahead: whether the processes start now, rather than with their first job.
         clock: seconds since the epoch.
     """
 
@@ -49,6 +50,7 @@ class JobQueue:
         workers: int = 1,
         time_limit: float = 60.0,
         warm_up: MotionProblem | None = None,
+        starts_ahead: bool = True,
         clock: Callable[[], float] = time.time,
     ) -> None:
         self._on_change = on_change
@@ -60,7 +62,7 @@ class JobQueue:
         self._news: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
         self._notifier = threading.Thread(target=self._notify, name="footfall-jobs-news", daemon=True)
         self._threads = [
-            JobThread(self, WorkerProcess(warm_up, niceness=BACKGROUND_NICENESS), time_limit)
+            JobThread(self, WorkerProcess(warm_up, niceness=BACKGROUND_NICENESS), time_limit, starts_ahead)
             for _ in range(workers)
         ]
         self._notifier.start()

@@ -62,16 +62,20 @@ class JobThread:
         source: where work comes from.
         worker: the process.
         time_limit: longest a job may run, s.
+        starts_ahead: whether the process starts before there is work.
     """
 
-    def __init__(self, source: JobSource, worker: WorkerProcess, time_limit: float) -> None:
+    def __init__(
+        self, source: JobSource, worker: WorkerProcess, time_limit: float, starts_ahead: bool = True
+    ) -> None:
+        self._starts_ahead = starts_ahead
         self.worker = worker
         self._source = source
         self._time_limit = time_limit
         self._thread = threading.Thread(target=self._run, name="footfall-jobs", daemon=True)
 
     def start(self) -> None:
-        """Starts the thread, which starts the process."""
+        """Starts the thread."""
         self._thread.start()
 
     def join(self) -> None:
@@ -80,7 +84,8 @@ class JobThread:
 
     def _run(self) -> None:
         try:
-            self._start_worker()
+            if self._starts_ahead:
+                self._start_worker()
             while (job := self._source.next_job()) is not None:
                 self._attend(job)
         finally:

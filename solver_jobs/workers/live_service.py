@@ -9,7 +9,7 @@ from concurrent.futures import CancelledError, Future, InvalidStateError
 from concurrent.futures import TimeoutError as FutureTimeout
 from contextlib import suppress
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
+from multiprocessing.process import BaseProcess
 from typing import Any
 
 from core.gait.gait import Gait
@@ -63,7 +63,7 @@ class LiveSolver:
         self._lock = threading.Lock()
         self._waiting: dict[int, Future[Any]] = {}
         self._told: dict[int, Callable[[Remedy], object]] = {}
-        self._process: SpawnProcess | None = None
+        self._process: BaseProcess | None = None
         self._pipe: Connection | None = None
         self._closed = False
 

@@ -8,12 +8,15 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
+from multiprocessing.process import BaseProcess
 from types import ModuleType
 from typing import Any
 
 NICENESS = 5
 """How far a solver stands back where cores are scarce, so that a stop of the robot never waits for one."""
+
+START_METHOD = "spawn"
+"""How Python starts a process (see `multiprocessing`): a fresh interpreter, as the studio has threads."""
 
 _STARTING = threading.Lock()
 """One process is started at a time."""
@@ -27,7 +30,7 @@ IDLE_NICENESS = 19
 
 def start_process(
     body: Callable[[Connection, Any], None], warm_up: Any, name: str, niceness: int = NICENESS
-) -> tuple[SpawnProcess, Connection]:
+) -> tuple[BaseProcess, Connection]:
     """Starts a fresh interpreter that runs `body`; it ends at the latest with this one.
 
     Args:
@@ -39,7 +42,7 @@ def start_process(
     Returns:
         The process and our end of the pipe.
     """
-    context = multiprocessing.get_context("spawn")
+    context: Any = multiprocessing.get_context(START_METHOD)
     ours, theirs = context.Pipe()
     process = context.Process(
         target=_stand_back, args=(body, theirs, warm_up, niceness), name=name, daemon=True

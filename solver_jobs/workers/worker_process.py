@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
+from multiprocessing.process import BaseProcess
 from typing import Any
 
 from solver_jobs.workers.nlp_worker import run_worker
@@ -39,7 +39,7 @@ class WorkerProcess:
         self._body = body
         self._name = name
         self._niceness = niceness
-        self._process: SpawnProcess | None = None
+        self._process: BaseProcess | None = None
         self._pipe: Connection | None = None
 
     @property

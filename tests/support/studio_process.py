@@ -13,13 +13,17 @@ import time
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
+
+from tests.support.spent_seconds import spending
+from tests.support.studio_forks import fork_studio
 
 PROJECT = Path(__file__).resolve().parents[2]
 START_SECONDS = 30.0
+END_SECONDS = 60.0
 ANSWER_SECONDS = 180.0
 """How long an answer may take: a deadline for loaded machines, which no test waits out."""
 PROGRAM, PATIENT = "app", "tests.support.patient_studio"
@@ -47,10 +51,12 @@ class Answer:
 class StudioProcess:
     """A running studio."""
 
-    process: subprocess.Popen[str]
+    pid: int
     url: str
     said: Path | None = None
     """What it writes to standard error."""
+    data: Path = Path()
+    """Its data folder."""
 
     def ask(
         self, method: str, path: str, content: Any = None, headers: dict[str, str] | None = None
@@ -134,6 +140,17 @@ def text_of(path: Path | None) -> str:
     return text[-20_000:]
 
 
+@dataclass(frozen=True)
+class _Child:
+    """The process of a studio, however it was started."""
+
+    pid: int
+    output: IO[str]
+    wait: Callable[[float], int | None]
+    """The exit status, or None where it still runs after so many seconds."""
+    kill: Callable[[], None]
+
+
 @contextmanager
 def running_studio(
     data: Path,
@@ -143,39 +160,77 @@ def running_studio(
     program: str = PATIENT,
     python: str = sys.executable,
 ) -> Iterator[StudioProcess]:
-    """A studio on a free port; ended by SIGTERM, and its exit status must be 0."""
-    command = [python, "-m", program, "serve", "--port", "0", "--data", str(data), "--no-browser"]
+    """A studio on a free port; ended by SIGTERM, and its exit status must be 0.
+
+    Where nothing is asked of how it is started, it is a fork of a process that has loaded the program.
+    """
+    command = ["serve", "--port", "0", "--data", str(data), "--no-browser", *words]
+    is_usual = (cwd, environment, program, python) == (PROJECT, None, PATIENT, sys.executable)
     descriptor, name = tempfile.mkstemp(prefix="footfall-said-", suffix=".txt")
-    said = Path(name)
-    process = subprocess.Popen(
-        [*command, *words],
-        cwd=cwd,
-        stdout=subprocess.PIPE,
-        stderr=descriptor,
-        text=True,
-        env={**(environment or os.environ), "PYTHONUNBUFFERED": "1"},
-    )
     os.close(descriptor)
+    said = Path(name)
+    child: _Child | None = None
     studio: StudioProcess | None = None
     try:
-        if process.stdout is None:
-            raise AssertionError("the studio has no standard output")
-        line = process.stdout.readline()
+        with spending("starting studios"):
+            child = (
+                _forked(command, said)
+                if is_usual
+                else _started([python, "-m", program, *command], said, cwd, environment)
+            )
+            line = child.output.readline()
         found = re.search(r"http://\S+", line)
         if found is None:
-            status = process.wait(START_SECONDS)
+            status = child.wait(START_SECONDS)
             raise AssertionError(f"no address in {line!r}; exit status {status}\n{text_of(said)}")
-        studio = StudioProcess(process, found.group(), said)
+        studio = StudioProcess(child.pid, found.group(), said, data)
         RUNNING.append(studio)
         yield studio
-        process.send_signal(signal.SIGTERM)
-        if process.wait(60) != 0:
-            raise AssertionError(f"serve ended with status {process.returncode}\n{text_of(said)}")
+        with spending("ending studios"):
+            os.kill(child.pid, signal.SIGTERM)
+            status = child.wait(END_SECONDS)
+        if status != 0:
+            raise AssertionError(f"serve ended with status {status}\n{text_of(said)}")
     finally:
         if studio in RUNNING:
             RUNNING.remove(studio)
+        if child is not None:
+            child.kill()
+            child.output.close()
+        said.unlink()
+
+
+def _forked(words: list[str], said: Path) -> _Child:
+    process, output = fork_studio(words, said)
+
+    def wait(seconds: float) -> int | None:
+        process.join(seconds)
+        return process.exitcode
+
+    def kill() -> None:
+        process.kill()
+        process.join()
+        process.close()
+
+    return _Child(process.pid or 0, output, wait, kill)
+
+
+def _started(words: list[str], said: Path, cwd: Path, environment: dict[str, str] | None) -> _Child:
+    given = {**(environment or os.environ), "PYTHONUNBUFFERED": "1"}
+    with said.open("wb") as errors:
+        process = subprocess.Popen(
+            words, cwd=cwd, stdout=subprocess.PIPE, stderr=errors, text=True, env=given
+        )
+
+    def wait(seconds: float) -> int | None:
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(seconds)
+        return process.returncode
+
+    def kill() -> None:
         process.kill()
         process.wait()
-        if process.stdout is not None:
-            process.stdout.close()
-        said.unlink()
+
+    if process.stdout is None:
+        raise AssertionError("the studio has no standard output")
+    return _Child(process.pid, process.stdout, wait, kill)

@@ -130,7 +130,7 @@ def test_a_terminal_that_is_closed_under_the_studio_stops_its_run(
     words = ("serve", "--port", "0", "--data", str(tmp_path), "--robot", robot.device, "--no-browser")
     with in_terminal(*words) as terminal:
         wait_for(lambda: served(terminal.shown) is not None, "the studio answers", 60)
-        studio = StudioProcess(terminal.process, served(terminal.shown) or "")  # type: ignore[arg-type]
+        studio = StudioProcess(terminal.process.pid, served(terminal.shown) or "")
         studio.ask("GET", "/api/gaits/walk/view")
         studio.ask("POST", "/api/gaits/walk/check")
         approved = studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True})
@@ -163,7 +163,7 @@ def test_a_studio_ends_by_a_hang_up_and_not_under_nohup(tmp_path: Path, shell: s
         assert url is not None
         process.send_signal(signal.SIGHUP)
         if survives:
-            studio = StudioProcess(process, url)
+            studio = StudioProcess(process.pid, url)
             assert studio.ask("GET", "/api/health").status == 200
             process.send_signal(signal.SIGTERM)
         assert process.wait(60) == 0

@@ -132,7 +132,7 @@ def test_a_flood_leaves_stop_and_the_others_alone(
 @pytest.mark.heavy
 @pytest.mark.alone
 def test_the_flood_that_is_over_leaves_nothing_open(flooded: Flooded) -> None:
-    folder = Path(f"/proc/{flooded.studio.process.pid}/fd")
+    folder = Path(f"/proc/{flooded.studio.pid}/fd")
     if not folder.exists():
         pytest.skip("this system does not tell a process's descriptors")
     before = len(list(folder.iterdir()))

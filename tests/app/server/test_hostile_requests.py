@@ -38,7 +38,7 @@ def studio(lent_studio: StudioProcess) -> StudioProcess:
 
 def memory_kb(studio: StudioProcess, name: str) -> int:
     """A figure of the process's memory: `VmRSS` is what it has, `VmHWM` the most that it has had."""
-    lines = Path(f"/proc/{studio.process.pid}/status").read_text().splitlines()
+    lines = Path(f"/proc/{studio.pid}/status").read_text().splitlines()
     return next(int(line.split()[1]) for line in lines if line.startswith(f"{name}:"))
 
 

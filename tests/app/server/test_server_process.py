@@ -249,25 +249,19 @@ def test_a_busy_port_is_exit_2_and_names_the_option(tmp_path: Path) -> None:
     assert ended.stdout == ""
 
 
-def data_of(studio: StudioProcess) -> Path:
-    command = studio.process.args
-    assert isinstance(command, list)
-    return Path(str(command[command.index("--data") + 1]))
-
-
 def test_a_second_studio_on_a_data_folder_is_refused_and_names_the_first(studio: StudioProcess) -> None:
-    data = data_of(studio)
+    data = studio.data
     ended = footfall("serve", "--port", "0", "--data", str(data), "--no-browser", "--json")
     answer = json.loads(ended.stdout)
     assert (ended.returncode, answer["where"]) == (2, "--data")
-    for word in (f"process {studio.process.pid}", studio.url, str(data)):
+    for word in (f"process {studio.pid}", studio.url, str(data)):
         assert word in answer["error"]
     assert studio.ask("GET", "/api/health").status == 200
 
 
 @pytest.mark.heavy
 def test_the_other_commands_go_on_beside_a_studio(studio: StudioProcess, tmp_path: Path) -> None:
-    data = str(data_of(studio))
+    data = str(studio.data)
     way, trajectory = tmp_path / "way.csv", tmp_path / "walk.csv"
     rows = ["0.4," + ",".join([f"{h}.0000"] * 12) for h in (5, 6, 5)]
     way.write_text("\n".join(["duration_s," + ",".join(f"h{i}" for i in range(1, 13)), *rows]) + "\n")

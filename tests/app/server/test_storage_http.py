@@ -109,7 +109,7 @@ def test_from_damage_to_the_last_good_backup_and_on(tmp_path: Path) -> None:
         assert "footfall restore" in text_of(studio.said)
         assert studio.ask("PUT", "/api/gaits/walk", document | {"notes": "lost"}).status == 503
         refused = footfall("restore", "--data", str(data), "--backup", backup.path.name)
-        assert (refused.returncode, str(studio.process.pid) in refused.stderr) == (2, True)
+        assert (refused.returncode, str(studio.pid) in refused.stderr) == (2, True)
     listed = footfall("restore", "--data", str(data))
     assert (listed.returncode, backup.path.name in listed.stdout) == (0, True)
     back = footfall("restore", "--data", str(data), "--backup", backup.path.name)

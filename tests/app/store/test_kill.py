@@ -136,7 +136,7 @@ def test_what_a_killed_service_acknowledged_is_there(worker: subprocess.Popen[st
     assert all(known.saves.values())
 
 
-def start(folder: Path) -> StudioProcess:
+def start(folder: Path) -> tuple[subprocess.Popen[str], StudioProcess]:
     command = [
         sys.executable,
         "-u",
@@ -153,12 +153,12 @@ def start(folder: Path) -> StudioProcess:
     assert process.stdout is not None
     found = re.search(r"http://\S+", process.stdout.readline())
     assert found is not None
-    return StudioProcess(process, found.group())
+    return process, StudioProcess(process.pid, found.group())
 
 
-def kill(studio: StudioProcess) -> None:
-    studio.process.kill()
-    studio.process.communicate()
+def kill(process: subprocess.Popen[str]) -> None:
+    process.kill()
+    process.communicate()
 
 
 class Editor(threading.Thread):
@@ -191,7 +191,7 @@ def test_what_a_killed_server_acknowledged_is_there(tmp_path: Path) -> None:
     dice = random.Random(SEED)
     acknowledged = sent = saved = 0
     for _ in range(SERVER_ROUNDS):
-        studio = start(tmp_path)
+        process, studio = start(tmp_path)
         try:
             number = number_of(studio.ask("GET", "/api/gaits/walk").content["name"])
             assert acknowledged <= number <= sent
@@ -202,7 +202,7 @@ def test_what_a_killed_server_acknowledged_is_there(tmp_path: Path) -> None:
                 editor.moved.clear()
             wait_about(dice.uniform(0, 2 * LONGEST_WAIT))
         finally:
-            kill(studio)
+            kill(process)
         editor.join(60)
         assert not editor.is_alive()
         acknowledged, sent, saved = editor.acknowledged, editor.sent, max(saved, editor.saved)

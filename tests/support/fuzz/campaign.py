@@ -190,8 +190,8 @@ class Campaign:
             return next(self._numbers, None)
 
     def _memory(self) -> Memory:
-        sizes = resident_bytes(self._studio.process.pid)
-        return Memory(self._done, sum(sizes.values()), sizes[self._studio.process.pid])
+        sizes = resident_bytes(self._studio.pid)
+        return Memory(self._done, sum(sizes.values()), sizes[self._studio.pid])
 
     def _undo(self, connection: Connection, asked: Asked, answered: Answered) -> None:
         """Deletes what a request has made, brings back what it has deleted."""

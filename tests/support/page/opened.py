@@ -11,6 +11,7 @@ from urllib.parse import urljoin
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect
 
 from tests.support.chromium import FLAT_WORDS, LONG_MS, chromium_path
+from tests.support.spent_seconds import spending
 
 _FLAT: dict[Browser, Browser] = {}
 """Beside each browser one that draws without a GPU, real or emulated; it ends with its Playwright."""
@@ -47,7 +48,8 @@ def opened_page(
         problems: list[str] = []
         page.on("pageerror", lambda error: problems.append(str(error)))
         page.on("console", lambda message: problems.extend(said_by_us(message)))
-        page.goto(url)
+        with spending("opening pages"):
+            page.goto(url)
         try:
             yield page
         except BaseException:

@@ -78,7 +78,7 @@ class Launcher:
         found = re.search(r"http://\S+", line)
         if found is None:
             raise AssertionError(f"no address in {line!r}\n{text_of(self._said)}")
-        return StudioProcess(self._process, found.group(), self._said)
+        return StudioProcess(self._child, found.group(), self._said)
 
     def kill(self) -> None:
         """Kills the studio by SIGKILL, and returns when it is dead."""

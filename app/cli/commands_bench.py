@@ -1,21 +1,24 @@
 """`bench`."""
 
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from functools import partial
 from typing import Any
 
-from app.bench import BENCHMARKS, BY_NAME_ONLY, Benchmark, Row, conditions
-from app.bench.common.measure import EndedEarly
-from app.bench.physics.learning import bench_learning
-from app.bench.physics.tables import bench_physics
-from app.bench.robot.moves import bench_moves
-from app.bench.solvers.edits import bench_edits
+from app.bench import BENCHMARKS, BY_NAME_ONLY, measured
+from app.bench.common.measure import EndedEarly, Row, conditions
 from app.bench.solvers.fastest_grid import bench_fastest_grid
-from app.cli.bench_options import GRID, MOVES, PHYSICS, grid_of, reports_of
+from app.cli.bench_options import GRID, MOVES, PHYSICS, add_bench_options, grid_of, reports_of
+from app.cli.common.command import set_command
 from app.cli.common.output import INTERRUPTED, end_on_signals, note, show
 from app.cli.fastest_search import end_progress, show_progress
 from app.common.json import Json
 from core.errors import InputError
+
+
+def bench_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `bench`."""
+    set_command(parser, run_bench, "Measure what users feel.")
+    add_bench_options(parser)
 
 
 def run_bench(options: Namespace) -> int:
@@ -28,24 +31,25 @@ def run_bench(options: Namespace) -> int:
     if unknown:
         raise InputError(f"There is no benchmark “{unknown[0]}”; choose of {', '.join(BENCHMARKS)}.", "NAME")
     reports = reports_of(options)
-    benchmarks: dict[str, Benchmark] = {
-        **BENCHMARKS,
-        "edits": partial(bench_edits, options.count, options.seed),
-        PHYSICS: partial(bench_physics, options.reference, reports.get(PHYSICS)),
-        MOVES: partial(bench_moves, reports.get(MOVES)),
-        "learning": partial(bench_learning, options.reference),
+    arguments: dict[str, tuple[Any, ...]] = {
+        "edits": (options.count, options.seed),
+        PHYSICS: (options.reference, reports.get(PHYSICS)),
+        MOVES: (reports.get(MOVES),),
+        "learning": (options.reference,),
     }
     grid = grid_of(options)
     if grid is not None:
         grid.problems()  # refuses a grid that is too large before anything is measured
-        benchmarks[GRID] = partial(bench_fastest_grid, grid, partial(show_progress, "Grid"))
     where = conditions()
     results: dict[str, list[Row]] = {}
     was_interrupted = False
     for name in options.names or [name for name in BENCHMARKS if name not in BY_NAME_ONLY]:
         note(f"Measuring {name} …")
         try:
-            results[name] = benchmarks[name]()
+            if name == GRID and grid is not None:
+                results[name] = bench_fastest_grid(grid, partial(show_progress, "Grid"))
+            else:
+                results[name] = measured(name, *arguments.get(name, ()))
         except EndedEarly as ended:
             results[name] = ended.rows
             was_interrupted = True

@@ -5,7 +5,7 @@ import os
 import shutil
 import socket
 import sys
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from enum import StrEnum
@@ -13,6 +13,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from app.bridge.transport import serial_devices
+from app.cli.common.command import set_command
 from app.cli.common.output import NOT_FIT, show
 from app.common.version import VERSION
 from app.store.folder_lock import studio_address
@@ -61,6 +62,13 @@ class Diagnosis:
     state: State
     sentence: str
     remedy: str = ""
+
+
+def doctor_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `doctor`."""
+    text = "Look at Python, solvers, port, serial devices and data folder, and say what to do about each."
+    set_command(parser, run_doctor, text)
+    parser.add_argument("--data", type=Path, default=None, help="data folder")
 
 
 def run_doctor(options: Namespace) -> int:

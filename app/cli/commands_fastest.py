@@ -3,11 +3,14 @@
 import json
 import math
 import sys
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
+from pathlib import Path
 
+from app.cli.common.argument_types import add_robot, foot_order, free_or, number, turn_or_side, whole, zero_or
+from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
 from app.cli.fastest_search import search_lines, show_progress
 from app.cli.gait_options import named_gait
@@ -18,13 +21,13 @@ from app.fastest.search import Searched, chosen_gait, search_content, searched
 from app.store.gait_files import write_atomically
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
-from core.gait.poses import POSE_LIMITS, Poses
+from core.gait.poses import MOST_SWAY, POSE_LIMITS, Poses
 from core.library.library import order_name
 from core.library.new_gait import with_robot
 from core.pose_gaits.gait_poses import USUAL_STEP, new_pose_gait, pose_problem, with_poses
 from core.pose_gaits.pace import motion_words
 from core.pose_gaits.pose_gait import PoseGait
-from core.pose_gaits.pose_problem import PoseProblem
+from core.pose_gaits.pose_problem import MOST_CYCLES, POSE_BOUNDS, PoseBounds, PoseProblem
 from core.pose_gaits.start_motion import TURN_GUESS
 from core.robot.model import RobotModel, load_robot
 from solver_jobs import FastestSearch, PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
@@ -59,6 +62,56 @@ class FastestWalk:
     def explanation(self) -> tuple[str, ...]:
         """Why it is not solved."""
         return next((one.explanation for one in (self.cycle, self.walk) if one.gait is None), ())
+
+
+_POSE_LIMITS = {
+    "margin": ("M", "m", "m that the body stays inside the support polygon, everywhere"),
+    "clearance": ("M", "m", "m that a foot rises above the plane of the standing ones"),
+    "stop_bound": ("S", "s", "s for which the robot hears no Stop at most"),
+    "slip": ("M", "m", "m that a standing foot may leave its foothold within a move"),
+    "shoe_distance": ("M", "m", "m between the middles of two feet at least"),
+    "arm_distance": ("M", "m", "m between the arms of neighbouring legs at least; 0 where they may touch"),
+}
+"""Limits of a pose gait: how each is written, its unit, and what it means."""
+
+
+def fastest_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `fastest`."""
+    text = "The walk with the most millimetres a second of the robot's own time, as waypoints."
+    set_command(parser, run_fastest, text)
+    add = parser.add_argument
+    text = "walk (default), amble, s-gait, c-gait, rotate, or a gait file: foot order and direction"
+    add("gait", nargs="?", default=None, help=text)
+    add(
+        "--order",
+        type=foot_order,
+        default=None,
+        help="feet such as 3,2,4,1 at direction 1, instead of the gait's own",
+    )
+    text = "choose foot order, direction and overlaps too: try all that differ, print them, take the fastest"
+    add("--search", action="store_true", help=text)
+    text = "the same, and what other margins and stop bounds cost; a few minutes"
+    add("--front", action="store_true", help=text)
+    step = "m a cycle, free for the fastest, or 0 for a turn on the spot (default free)"
+    add("--step", type=free_or(zero_or(number(0.0005, 0.2, "m"))), default=None, metavar="M|free", help=step)
+    turn = "rad a cycle, to the left above 0; on the spot also left or right: as fast as possible (default 0)"
+    add("--turn", type=turn_or_side, default=None, metavar="RAD|left|right", help=turn)
+    text = (
+        "how far the heading may differ from an even turn, rad (default 0): sway makes a gait faster, but "
+        "soles pivot on the ground, which is not tested with flat shoes yet"
+    )
+    add("--sway", type=number(0.0, MOST_SWAY, "rad"), default=0.0, metavar="RAD", help=text)
+    text = "from the standard stance to rest (default 1)"
+    add("--cycles", type=whole(1, MOST_CYCLES), default=1, metavar="N", help=text)
+    bounds = PoseBounds()
+    for name, (factor, unit, text) in _POSE_LIMITS.items():
+        least, most = POSE_BOUNDS[name]
+        words = f"{text} (default {getattr(bounds, name):g})"
+        option = f"--{name.replace('_', '-')}"
+        add(option, type=number(least, most, unit), default=getattr(bounds, name), metavar=factor, help=words)
+    add("--direction", type=whole(1, 4), default=None, help="1 to 4 (default the gait's own)")
+    add_robot(parser, "default the gait's own; with other legs in one of its orders")
+    add("-o", "--output", type=Path, default=None, help="WAY.csv with a companion, or GAIT.json")
 
 
 def run_fastest(options: Namespace) -> int:

@@ -2,12 +2,14 @@
 
 import json
 import sys
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
 from app.cli.commands_plan import poses_of
+from app.cli.common.argument_types import number, one_of, words_of
+from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show, write
 from app.cli.gait_options import Method
 from app.documents.gait_json import gait_content, parse_gait
@@ -30,6 +32,23 @@ _RECORDED = (".csv", ".npz")
 """Endings of files that hold a motion."""
 _TEXT = frozenset(ExportFormat) - {ExportFormat.NPZ, ExportFormat.PNG}
 """Forms that may be printed."""
+
+
+def export_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `export`."""
+    set_command(parser, run_export, "Write a gait or a recorded motion in another form.")
+    add = parser.add_argument
+    add("source", help="a gait's id, GAIT.json, TRAJ.csv or MOTION.npz")
+    add("--format", type=one_of(ExportFormat), metavar=words_of(ExportFormat), required=True)
+    add(
+        "--method",
+        type=one_of(Method),
+        metavar=words_of(Method),
+        default=Method.NLP,
+        help="what makes the plan of a gait, as for optimise (default nlp)",
+    )
+    add("--data", type=Path, default=None, help="data folder")
+    add("-o", "--output", type=Path, default=None, help="file to write")
 
 
 def run_export(options: Namespace) -> int:
@@ -125,6 +144,17 @@ def _plan(gait: Gait, method: Method) -> Plan:
         else:
             note(" ".join(verified.explanation) or "The optimiser found no motion.")
     return make_plan(gait, result, solve_live)
+
+
+def import_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `import`."""
+    set_command(parser, run_import, "Make a gait of another program's file.")
+    add = parser.add_argument
+    add("file", type=Path, help="TRAJ.csv, WAY.csv, MOTION.npz, PHASES.json or GAIT.json")
+    add("--name", default=None, help="of the gait; the file's where left out")
+    add("--robot", default=None, help="robot of the motion (default the first one with as many feet)")
+    add("--sample-time", type=number(0.001, 60.0, "s"), default=None, help="of a phase list, s")
+    add("-o", "--output", type=Path, default=None, help="gait file to write")
 
 
 def run_import(options: Namespace) -> int:

@@ -1,18 +1,27 @@
 """`frontier`."""
 
 import time
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 
 import numpy as np
 
+from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, end_on_signals, show
-from app.cli.gait_options import Method, asked_gait, returns_anew
+from app.cli.gait_options import Method, add_gait_options, asked_gait, returns_anew
 from app.common.json import Json
 from app.export.trajectory_files import write_trajectory
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline
 from core.robot.model import load_robot
 from solver_jobs import Frontier, FrontierSearch
+
+
+def frontier_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `frontier`."""
+    text = "Largest step of a gait, and what limits it; --step and --goal say only which way."
+    set_command(parser, run_frontier, text)
+    add_gait_options(parser)
+    parser.add_argument("--free-phases", action="store_true", help="phases may also be longer")
 
 
 def run_frontier(options: Namespace) -> int:

@@ -2,14 +2,16 @@
 
 import json
 import shlex
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from dataclasses import replace
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
+from app.cli.common.argument_types import add_robot, number, whole
+from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show
-from app.cli.gait_options import SOLVERS, Method, asked_gait
+from app.cli.gait_options import SOLVERS, Method, add_gait_options, asked_gait
 from app.common.json import Json
 from app.documents.gait_json import gait_schema, sent_hash
 from app.export.trajectory_files import write_trajectory
@@ -21,6 +23,7 @@ from core.errors import InputError
 from core.gait.gait import Gait, heading_step, motion_problem
 from core.gait.manual_motion import manual_motion
 from core.gait.motion_source import motion_source
+from core.gait.options import LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS
 from core.library.library import library, manual_entry
 from core.library.new_gait import with_robot
 from core.library.robot_times import RobotTimes, library_times
@@ -37,6 +40,14 @@ EXIT_OF_STATUS = {
     SolveStatus.FAILED: 4,
     SolveStatus.CANCELLED: 130,
 }
+
+
+def gaits_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `gaits`."""
+    set_command(parser, run_gaits, "List built-in and saved gaits.")
+    add = parser.add_argument
+    add("--data", type=Path, default=None, help="data folder")
+    add("--schema", action="store_true", help="print the JSON Schema of the gait document instead")
 
 
 def run_gaits(options: Namespace) -> int:
@@ -102,6 +113,20 @@ def _saved(data: Path) -> list[tuple[str, Gait]]:
     return rows
 
 
+def manual_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `manual`."""
+    set_command(parser, run_manual, "Trajectory of a gait made by hand.")
+    add = parser.add_argument
+    add("gait", help="walk, amble or s-gait")
+    add("--version", type=whole(0, 9), default=0, help="0, 1 or 2 (default 0)")
+    add("--step", type=number(0.0, 0.2, "m"), default=0.010, help="m (default 0.010)")
+    add("--direction", type=whole(1, 4), default=1)
+    add("--iterations", type=whole(1, 20), default=1)
+    add("--segment-samples", type=whole(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS), default=5)
+    add_robot(parser, "default deltawalker")
+    add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
+
+
 def run_manual(options: Namespace) -> int:
     """Writes the trajectory of a published manual gait."""
     entry = manual_entry(options.gait, options.version)
@@ -157,6 +182,14 @@ def optimise(gait: Gait, method: Method = Method.NLP) -> VerifiedResult:
     """Solves a gait in this process and holds the result to the independent checker."""
     problem = motion_problem(gait, load_robot(gait.robot))
     return verify(problem, SOLVERS[method](problem))
+
+
+def optimise_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `optimise`."""
+    set_command(parser, run_optimise, "Optimised trajectory of a gait.")
+    add_gait_options(parser)
+    text = "take the Nth of what would help, where the gait has no motion"
+    parser.add_argument("--remedy", type=whole(1, 4), metavar="N", default=None, help=text)
 
 
 def run_optimise(options: Namespace) -> int:

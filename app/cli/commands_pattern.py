@@ -2,13 +2,14 @@
 
 import shlex
 import threading
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 from app.cli.commands_gait import without_option
+from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, end_on_signals, show
-from app.cli.pattern_options import asked_pattern
+from app.cli.pattern_options import add_pattern_options, asked_pattern
 from app.cli.pattern_text import CHANGE, STANCE, SWING, drawn_pattern
 from app.common.json import Json
 from app.common.signals import Interrupted, ignore_endings
@@ -31,6 +32,13 @@ TICK_SECONDS = 0.1
 RULE_OPTIONS = {Rule.FEET_DOWN_EACH_SIDE: "--each-side"}
 """Options of rules that are not called like their rule."""
 NOTHING: Json = {"objective": None, "limb_changes": None, "score": None, "pattern": []}
+
+
+def pattern_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `pattern`."""
+    text = "The best footfall pattern: a transition between two states, or a periodic gait."
+    set_command(parser, run_pattern, text)
+    add_pattern_options(parser)
 
 
 def run_pattern(options: Namespace) -> int:

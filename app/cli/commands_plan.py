@@ -1,11 +1,13 @@
 """`waypoints` and `check`."""
 
 import sys
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
+from app.cli.common.argument_types import add_robot, number
+from app.cli.common.command import set_command
 from app.cli.common.output import NOT_FIT, note, show, verdict_lines, write
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory, write_waypoints
@@ -34,6 +36,25 @@ from solver_jobs import SolveStatus, solve_live, solve_poses
 ROBOT = "deltawalker"
 
 
+def waypoints_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `waypoints`."""
+    set_command(parser, run_waypoints, "Motor waypoints of a trajectory.")
+    add = parser.add_argument
+    add("file", type=Path, help="trajectory CSV")
+    add_robot(parser, "default deltawalker")
+    add_way_options(parser)
+    add("-o", "--output", type=Path, default=None, help="waypoint CSV to write")
+
+
+def add_way_options(parser: ArgumentParser) -> None:
+    """Adds the options of how waypoints are made of a trajectory."""
+    add = parser.add_argument
+    merge = "leave out waypoints this near the motors' straight way; 0.001 is the firmware's own tolerance"
+    add("--merge", type=number(0.0, 0.02, "m"), default=None, metavar="M", help=merge)
+    bound = "cut moves so that Stop is heard within this time, at least 0.77 s"
+    add("--stop-bound", type=number(0.1, 60.0, "s"), default=None, metavar="S", help=bound)
+
+
 def run_waypoints(options: Namespace) -> int:
     """Inverse kinematics of a trajectory file."""
     read = read_trajectory(options.file)
@@ -60,6 +81,13 @@ def run_waypoints(options: Namespace) -> int:
     ]
     show(options, content, lines)
     return 0
+
+
+def check_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `check`."""
+    set_command(parser, run_check, "Check a trajectory, waypoints or a gait.")
+    parser.add_argument("file", type=Path, help="TRAJ.csv, WAY.csv or GAIT.json")
+    add_robot(parser, "default the gait's own, else deltawalker")
 
 
 def run_check(options: Namespace) -> int:

@@ -1,9 +1,10 @@
 """`restore`."""
 
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from datetime import datetime
 from pathlib import Path
 
+from app.cli.common.command import set_command
 from app.cli.common.output import show
 from app.common.json import Json
 from app.store.backups import Backup, found_backups
@@ -12,6 +13,18 @@ from app.store.gait_files import default_data_folder
 from app.store.quick_check import damage_of
 from app.store.restore import contents_of, restore
 from core.errors import InputError, StorageError
+
+
+def restore_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `restore`."""
+    text = "List the backups of the database, or go back to one; what was there is kept aside."
+    set_command(parser, run_restore, text)
+    parser.add_argument("--data", type=Path, default=None, help="data folder")
+    chosen = parser.add_mutually_exclusive_group()
+    text = "go back to this one: a name that the list shows, or a file"
+    chosen.add_argument("--backup", type=Path, default=None, metavar="FILE", help=text)
+    text = "begin with an empty database; saved gaits stay"
+    chosen.add_argument("--empty", action="store_true", help=text)
 
 
 def run_restore(options: Namespace) -> int:

@@ -5,18 +5,22 @@ import re
 import signal
 import sys
 import threading
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from datetime import UTC, datetime
 from pathlib import Path
 from types import FrameType
 from typing import Any
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
+from app.cli.common.argument_types import number, one_of, whole, words_of
+from app.cli.common.command import set_command
 from app.cli.common.output import INTERRUPTED, NOT_FIT, end_on_signals, note, show, verdict_lines, write
 from app.cli.served_cameras import served_cameras
 from app.cli.streaming import run_of_file, stream
 from app.common.signals import ending_signals
 from app.emulator.emulated_robot import start_emulator
+from app.emulator.faults import Fault
+from app.emulator.profiles import ProfileName
 from app.export.trajectory_files import read_waypoints
 from app.gaits.views import approval_view, verdict_view
 from app.store.gait_files import default_data_folder
@@ -33,6 +37,23 @@ BAD_INPUT = frozenset({"stroke", "duration"})
 LEAST_TOKEN, MOST_TOKEN = 12, 200
 """Characters of a token."""
 _TOKEN = re.compile(rf"[!-~]{{{LEAST_TOKEN},{MOST_TOKEN}}}")
+
+
+def serve_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `serve`."""
+    set_command(parser, run_serve, "Serve the studio and print its address.")
+    add = parser.add_argument
+    add("--host", default="127.0.0.1", help="address to listen on (default 127.0.0.1)")
+    add("--port", type=whole(0, 65535), default=8400, help="port (default 8400; 0 any free)")
+    add("--robot", default="emulator", help="emulator, a serial device, or socket://HOST:PORT")
+    add("--data", type=Path, default=None, help="data folder")
+    text = (
+        "require this token on every request; without a value one is made, and a public host always needs one"
+    )
+    add("--token", nargs="?", const="", default=None, help=text)
+    text = "play a video file as a camera of that name; may be given several times"
+    add("--camera", action="append", default=[], metavar="NAME=VIDEO", help=text)
+    add("--no-browser", action="store_true", help="do not open a browser")
 
 
 def run_serve(options: Namespace) -> int:
@@ -78,6 +99,16 @@ def _announce(url: str, who: str) -> None:
     note(who)
 
 
+def emulate_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `emulate`."""
+    set_command(parser, run_emulate, "Run an emulated robot on a line.")
+    add = parser.add_argument
+    add("--tcp", type=whole(0, 65535), default=None, metavar="PORT", help="a port, 0 any free")
+    add("--profile", type=one_of(ProfileName), metavar=words_of(ProfileName), default="published")
+    add("--speed", type=number(0.01, 1000.0, ""), default=1.0)
+    add("--fault", type=one_of(Fault), metavar=words_of(Fault), nargs="+", default=[])
+
+
 def run_emulate(options: Namespace) -> int:
     """Runs an emulated robot until a signal ends it."""
     ended = threading.Event()
@@ -86,8 +117,8 @@ def run_emulate(options: Namespace) -> int:
         del number, frame
         ended.set()
 
-    for number in (signal.SIGINT, *ending_signals()):
-        signal.signal(number, end)
+    for ending in (signal.SIGINT, *ending_signals()):
+        signal.signal(ending, end)
     robot = start_emulator(options.profile, options.speed, tcp=options.tcp, faults=options.fault)
     try:
         show(options, {"device": robot.device}, [robot.device])
@@ -100,6 +131,17 @@ def run_emulate(options: Namespace) -> int:
     finally:
         robot.close()
     return 0
+
+
+def send_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `send`."""
+    set_command(parser, run_send, "Check, approve and stream a waypoint file.")
+    add = parser.add_argument
+    add("file", type=Path, help="waypoint CSV")
+    add("--robot", required=True, help="emulator, a serial device, or socket://HOST:PORT")
+    add("--yes", action="store_true", help="approve in your name without being asked")
+    add("--clear-stop", action="store_true", help="lift a stop that the robot holds from another program")
+    add("--data", type=Path, default=None, help="data folder, where the run is kept")
 
 
 def run_send(options: Namespace) -> int:

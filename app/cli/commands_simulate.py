@@ -1,7 +1,7 @@
 """`simulate`."""
 
 import sys
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import asdict
@@ -9,7 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from app.cli.commands_plan import ROBOT, sending_of, trajectory_of
+from app.cli.commands_plan import ROBOT, add_way_options, sending_of, trajectory_of
+from app.cli.common.argument_types import add_robot, one_of, whole, words_of
+from app.cli.common.command import set_command
 from app.cli.common.output import NOT_FIT, end_on_signals, note, show, tally
 from app.common.json import Json
 from app.common.signals import Interrupted
@@ -34,11 +36,28 @@ from core.physics.motion import SimulatedMotion
 from core.physics.parameters import PhysicsSet, physics_sets
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
-from core.physics.variations import VariedRun
+from core.physics.variations import MOST_VARIATIONS, VariedRun
 from core.recorded.waypoint_motion import motion_of_waypoints
 from core.robot.model import RobotModel, load_robot
 from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import simulate, simulate_variations
+
+
+def simulate_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `simulate`."""
+    text = "Run waypoints, or those of a trajectory or a gait, in a physics model."
+    set_command(parser, run_simulate, text)
+    add = parser.add_argument
+    add("file", type=Path, help="TRAJ.csv, WAY.csv or GAIT.json")
+    add_robot(parser, "default the gait's own, else deltawalker")
+    add_way_options(parser)
+    text = f"parameters: {', '.join(physics_sets())}, or a learned set (default the robot's usual one)"
+    add("--physics", default=None, metavar="SET", help=text)
+    add("--data", type=Path, default=None, help="data folder, where learned sets are kept")
+    add("--rig", type=one_of(Rig), metavar=words_of(Rig), default=Rig.WALKING)
+    text = "try so many seeded variations of the parameters as well"
+    add("--variations", type=whole(0, MOST_VARIATIONS), default=0, metavar="N", help=text)
+    add("--seed", type=whole(0, 2**31), default=0, help="of the variations (default 0)")
 
 
 def run_simulate(options: Namespace) -> int:

@@ -1,11 +1,13 @@
 """`trial`."""
 
 import math
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.cli.common.argument_types import number, pixel, whole
+from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show
 from app.common.json import Json
 from app.export.trajectory_files import read_text
@@ -35,6 +37,26 @@ class Trial:
     mean: Movement
     found: FoundIterations | None
     iterations: tuple[IterationMovement, ...]
+
+
+def trial_command(parser: ArgumentParser) -> None:
+    """Makes the parser of `trial`."""
+    text = "How far recorded foot tracks went, in cm and degrees, beside what was wanted."
+    set_command(parser, run_trial, text)
+    add = parser.add_argument
+    add("files", type=Path, nargs="+", metavar="TRACK.csv|VIDEO", help="X_D1, Y_D1, …, a row a frame")
+    text = "the files are videos: how their camera sees the platform, as the studio exports it"
+    add("--setup", type=Path, default=None, metavar="SETUP.json", help=text)
+    length = number(0.01, 1000.0, "cm")
+    add("--expect", type=length, required=True, metavar="CM", help="the whole wanted way")
+    text = "find the ends of so many iterations, and print each"
+    add("--iterations", type=whole(1, 50), default=None, metavar="N", help=text)
+    rate = number(0.1, 1000.0, "Hz")
+    add("--frame-rate", type=rate, default=None, metavar="HZ", help="frames a second (13)")
+    text = "the files are in pixels, y downwards, 0,0 a gap: how many are a centimetre"
+    add("--pixels-per-cm", type=number(0.1, 10_000.0, "px"), default=None, help=text)
+    text = "pixel of the platform's centre"
+    add("--origin", type=pixel, default=None, metavar="X,Y", help=text)
 
 
 def run_trial(options: Namespace) -> int:
@@ -136,9 +158,9 @@ def _content(trial: Trial) -> Json:
 def _lines(trial: Trial) -> list[str]:
     named = [(f"foot {number}", foot) for number, foot in enumerate(trial.feet, 1)]
     lines = [f"{trial.path} (cm, degrees)", *_table([*named, ("mean", trial.mean)])]
-    for number, part in enumerate(trial.iterations, 1):
+    for index, part in enumerate(trial.iterations, 1):
         lines.append(
-            f"  iteration {number}: {part.mean.net_distance * 100:.2f} cm at "
+            f"  iteration {index}: {part.mean.net_distance * 100:.2f} cm at "
             f"{math.degrees(part.mean.net_angle):.1f}° in {part.seconds:.1f} s, {part.speed * 1000:.2f} mm/s"
         )
     if trial.found is not None:

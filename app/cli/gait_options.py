@@ -1,6 +1,7 @@
 """From the words of the command line to the gait that is asked, and to the method that solves it."""
 
-from argparse import Namespace
+import math
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from dataclasses import replace
 from enum import StrEnum
@@ -8,15 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
+from app.cli.common.argument_types import add_robot, foot_order, number, one_of, pair, whole, words_of
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline, heading_step, with_iterations, with_return
-from core.gait.options import GaitOptions
+from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS, GaitOptions
 from core.library.library import library, optimised_entry
 from core.library.new_gait import with_robot
 from core.motion.heading_profile import HeadingProfile
-from core.problem.motion_problem import Boundary, MotionProblem
+from core.problem.motion_problem import Boundary, Cost, MotionProblem, Workspace
 from core.robot.model import load_robot
 from solver_jobs import MotionResult, solve_exact, solve_live
 
@@ -54,6 +56,69 @@ _OPTIONS = (
 
 _REDRAW = ("order", "phase_knots", "closing_knots")
 """Options of the command line that draw the timeline anew."""
+
+
+def add_gait_options(parser: ArgumentParser) -> None:
+    """A gait and everything that can be asked of it; what is left out stays as the gait has it."""
+    add = parser.add_argument
+    add("gait", help="walk, amble, s-gait, c-gait, rotate, or a gait file")
+    add_robot(parser, "default the gait's own; with other legs it is drawn anew")
+    travel = parser.add_mutually_exclusive_group()
+    travel.add_argument("--step", type=number(0.0, 0.2, "m"), default=None, help="m an iteration")
+    travel.add_argument(
+        "--goal", type=pair, default=None, metavar="X,Y", help="total travel at direction 1, m"
+    )
+    add("--yaw", type=number(-math.pi, math.pi, "rad"), default=None, help="rad an iteration")
+    add("--direction", type=whole(1, 4), default=None)
+    add("--order", type=foot_order, default=None, help="feet such as 3,2,4,1")
+    add("--iterations", type=whole(1, 20), default=None)
+    phase, closing = whole(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS), whole(0, MOST_CLOSING_KNOTS)
+    add("--phase-knots", type=phase, default=None, help="samples of each stance phase and of each swing")
+    add("--closing-knots", type=closing, default=None, help="samples of stance after the last swing")
+    add("--knot-time", type=number(0.01, 10.0, "s"), default=None, help="s between samples (default 0.4)")
+    _limit_options(parser)
+    add("--boundary", type=one_of(Boundary), metavar=words_of(Boundary), default=None)
+    text = "what is minimised (default goal, of a gait file its own)"
+    add("--cost", type=one_of(Cost), metavar=words_of(Cost), default=None, help=text)
+    add(
+        "--method",
+        type=one_of(Method),
+        metavar=words_of(Method),
+        default=Method.NLP,
+        help="live: convex, given footholds and heights; nlp: exact (default)",
+    )
+    add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
+
+
+def _limit_options(parser: ArgumentParser) -> None:
+    """What a motion keeps."""
+    add = parser.add_argument
+    add("--clearance", type=number(0.0, 0.02, "m"), default=None, help="m that a swing rises (default 0.003)")
+    add(
+        "--margin",
+        type=number(0.0, 0.05, "m"),
+        default=None,
+        help="m that the centre of pressure stays inside the support polygon (default the robot's own)",
+    )
+    add("--body-speed", type=number(0.0005, 1.0, "m/s"), default=None, help="m/s (default 0.015)")
+    add("--foot-speed", type=number(0.0005, 1.0, "m/s"), default=None, help="m/s (default 0.015)")
+    height = number(0.03, 0.1, "m")
+    add("--plane-height", type=height, default=None, help="actuator plane at the start, m")
+    add("--end-plane-height", type=height, default=None, help="and at the goal, m")
+    add("--workspace", type=one_of(Workspace), metavar=words_of(Workspace), default=None)
+    add("--friction", type=number(0.01, 10.0, ""), default=None, help="coefficient")
+    add(
+        "--motor-speed",
+        type=number(0.0005, 1.0, "m/s"),
+        default=None,
+        help="limit of every motor, m/s (default none)",
+    )
+    add(
+        "--motor-acceleration",
+        type=number(0.0005, 10.0, "m/s²"),
+        default=None,
+        help="limit of every motor, m/s² (default none)",
+    )
 
 
 def asked_gait(options: Namespace) -> Gait:

@@ -1,13 +1,17 @@
 """What `pattern` is asked for, as a problem."""
 
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from dataclasses import fields
 
 import numpy as np
 
+from app.cli.common.argument_types import number, rule_number, whole
 from core.arrays import Bools
 from core.errors import InputError
 from core.patterns.problem import (
+    LEAST_SAMPLES,
+    MOST_LEGS,
+    MOST_SAMPLES,
     PatternKind,
     PatternProblem,
     PatternRules,
@@ -16,7 +20,42 @@ from core.patterns.problem import (
     transition_cells,
 )
 
+PATTERN_RULES = {
+    "--shortest-swing": ("shortest_swing", "samples that a swing lasts at least"),
+    "--feet-down": ("feet_down", "feet that stand at least"),
+    "--each-side": ("feet_down_each_side", "feet that stand at least on each side"),
+    "--workload": ("workload", "samples that the stances of two walking limbs differ by at most"),
+    "--limb-changes": ("limb_changes", "times that a limb changes at most"),
+    "--shortest-stance": ("shortest_stance", "samples that a stance lasts at least"),
+    "--least-swing": ("least_swing", "samples that a walking limb swings at least"),
+}
+"""The options of `pattern` for rules: which rule, and what its number means."""
+
 _VALUES = {"swing": 0, "stance": 1}
+
+
+def add_pattern_options(parser: ArgumentParser) -> None:
+    """Adds the options of `pattern`."""
+    add = parser.add_argument
+    add("--legs", type=whole(2, MOST_LEGS), required=True, metavar="N")
+    samples = whole(LEAST_SAMPLES, MOST_SAMPLES)
+    text = "how many, both ends of a transition included"
+    add("--samples", type=samples, required=True, metavar="M", help=text)
+    text = "first state, foot 1 first: 1 stance, 0 swing"
+    add("--from", dest="from_state", default=None, metavar="BITS", help=text)
+    add("--to", dest="to_state", default=None, metavar="BITS", help="last state")
+    add("--periodic", action="store_true", help="a gait: the first sample follows the last")
+    text = "feet that keep one state: 1,4; in a periodic gait 1:swing,4:stance"
+    add("--locked", default=None, metavar="FEET", help=text)
+    text = "the fewest samples that work, up to --samples"
+    add("--shortest", action="store_true", help=text)
+    add("--best", type=whole(1, 50), default=1, metavar="K", help="how many patterns")
+    seconds = number(0.001, 3600.0, "s")
+    add("--seconds", type=seconds, default=30.0, help="longest search (default 30)")
+    for option, (rule, text) in PATTERN_RULES.items():
+        default = getattr(PatternRules(), rule)
+        words = f"{text} (default {default})"
+        add(option, dest=rule, type=rule_number, default=default, metavar="N|off", help=words)
 
 
 def asked_pattern(options: Namespace) -> PatternProblem:

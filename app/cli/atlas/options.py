@@ -7,6 +7,7 @@ from pathlib import Path
 from app.atlas.physics_choice import physics_rule
 from app.cli.atlas import commands
 from app.cli.common.argument_types import add_robot, whole
+from app.cli.common.command import set_command
 from core.atlas.space import MOST_SEED
 
 DEFAULT_COUNT = 10_000
@@ -15,14 +16,16 @@ ATLAS_HELP = "atlas file, or deltawalker-small: the one that comes with the prog
 MOST_WORKERS = 256
 
 
-def add_atlas_commands(parser: argparse.ArgumentParser) -> None:
-    """Adds `run`, `front`, `export` and `open` to the command `atlas`."""
+def atlas_command(parser: argparse.ArgumentParser) -> None:
+    """Makes the parser of `atlas` with its commands `run`, `front`, `export` and `open`."""
+    parser.description = (
+        "Evaluate thousands of gaits: how fast, how steady, at what price; and use what was found."
+    )
     added = parser.add_subparsers(required=True, metavar="run|front|export|open", parser_class=type(parser))
 
     def command(name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
-        one = added.add_parser(name, description=text, help=text, allow_abbrev=False)
-        one.set_defaults(run=run)
-        one.add_argument("--json", action="store_true", help="print one JSON object")
+        one = added.add_parser(name, help=text, allow_abbrev=False)
+        set_command(one, run, text)
         return one
 
     _run_options(

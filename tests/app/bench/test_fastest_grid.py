@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 
-from app.bench import BENCHMARKS
 from app.bench.common.measure import EndedEarly
 from app.bench.solvers.fastest_grid import Grid, bench_fastest_grid
 from app.cli.bench_options import grid_of
@@ -141,7 +140,7 @@ def test_a_signal_ends_it_with_what_is_answered_and_begins_no_other_benchmark(
     ending: signal.Signals,
 ) -> None:
     measured: list[str] = []
-    monkeypatch.setitem(BENCHMARKS, "kinematics", lambda: measured.append("kinematics"))
+    monkeypatch.setattr("app.cli.commands_bench.measured", measured.append)
     monkeypatch.setattr("app.bench.solvers.fastest_grid.FastestSearch", Search)
     monkeypatch.setattr(Search, "ending", ending)
     words = ("bench", "fastest", "kinematics", "--grid", "--orders", "c-gait")

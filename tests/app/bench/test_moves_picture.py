@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.bench import BENCHMARKS, Row
+from app.bench.common.measure import Row
 from app.bench.robot.moves import moves_svg, require_picture
 from app.bench.robot.moves_picture import moves_picture
 from app.bench.robot.walked_moves import Move, WalkedMoves, walks_content, walks_of
@@ -142,21 +142,16 @@ def test_a_report_is_written_by_moves_only_where_they_are_named(
     pages: list[str],
     pictures: list[str | None],
 ) -> None:
-    written: dict[str, list[str | None]] = {"pages": [], "pictures": []}
+    written: dict[str, list[str | None]] = {"physics": [], "moves": []}
 
-    def measured(kind: str, report: Path | None) -> list[Row]:
-        written[kind].append(None if report is None else str(report))
+    def measured(name: str, *arguments: Path | None) -> list[Row]:
+        if name in written:
+            written[name].append(None if arguments[-1] is None else str(arguments[-1]))
         return [{"figure": 1}]
 
-    for name in BENCHMARKS:
-        monkeypatch.setitem(BENCHMARKS, name, lambda: [{"figure": 1}])
-    for name in ("edits", "learning"):
-        monkeypatch.setattr(f"app.cli.commands_bench.bench_{name}", lambda *given: [{"figure": 1}])
-    command = "app.cli.commands_bench"
-    monkeypatch.setattr(f"{command}.bench_physics", lambda reference, page: measured("pages", page))
-    monkeypatch.setattr(f"{command}.bench_moves", lambda picture: measured("pictures", picture))
+    monkeypatch.setattr("app.cli.commands_bench.measured", measured)
     (tmp_path / "walk_a.csv").touch()
     monkeypatch.setattr("app.bench.robot.moves.PUBLISHED", tmp_path / "walk_a.csv")
     monkeypatch.chdir(tmp_path)
     assert run(capsys, "bench", *names.split(), "--report", "report.svg")[0] == 0
-    assert written == {"pages": pages, "pictures": pictures}
+    assert written == {"physics": pages, "moves": pictures}

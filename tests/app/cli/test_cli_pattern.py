@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.cli import commands_pattern
-from app.cli.parser import PATTERN_RULES
+from app.cli.pattern_options import PATTERN_RULES
 from core.patterns.check import check_pattern
 from core.patterns.problem import (
     PatternKind,

@@ -9,7 +9,7 @@ from app.atlas.atlas_file import AtlasFile
 from app.atlas.entries import entries_with_physics
 from app.atlas.map_page import map_page
 from app.common.json import Json
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.atlas.row import FIGURES, AtlasRow
 from core.errors import InputError
 

@@ -18,7 +18,7 @@ from app.common.json import Json
 from app.documents.gait_json import gait_content
 from app.export.way_files import write_pose_gait
 from app.fastest.search import Searched, chosen_gait, search_content, searched
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
 from core.gait.poses import MOST_SWAY, POSE_LIMITS, Poses

@@ -7,10 +7,10 @@ from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
-from app.cli.commands_plan import poses_of
 from app.cli.common.argument_types import number, one_of, words_of
 from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show, write
+from app.cli.gait_motion import poses_of
 from app.cli.gait_options import Method
 from app.documents.gait_json import gait_content, parse_gait
 from app.documents.trajectory_json import trajectory_content
@@ -20,7 +20,8 @@ from app.export.source import Exportable, exportable_file, exportable_plan, reco
 from app.export.trajectory_files import companion_path, read_text, read_whole_text
 from app.plans.plan import Plan, make_plan
 from app.plans.sequence_plan import sequence_plan
-from app.store.gait_files import GaitFiles, default_data_folder, write_atomically
+from app.store.gait_files import GaitFiles, default_data_folder
+from app.store.plain_file import write_atomically
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.library.library import library

@@ -22,7 +22,7 @@ from app.emulator.emulated_robot import start_emulator
 from app.emulator.faults import Fault
 from app.emulator.profiles import ProfileName
 from app.export.trajectory_files import read_waypoints
-from app.gaits.views import approval_view, verdict_view
+from app.gaits.verdict_views import approval_view, verdict_view
 from app.store.gait_files import default_data_folder
 from core.checks.rules import check_waypoints
 from core.errors import CheckError, InputError, RobotError

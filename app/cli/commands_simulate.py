@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from app.cli.commands_plan import ROBOT, add_way_options, sending_of, trajectory_of
+from app.cli.commands_plan import ROBOT, add_way_options
 from app.cli.common.argument_types import add_robot, one_of, whole, words_of
 from app.cli.common.command import set_command
 from app.cli.common.output import NOT_FIT, end_on_signals, note, show, tally
+from app.cli.gait_motion import sending_of, trajectory_of
 from app.common.json import Json
 from app.common.signals import Interrupted
 from app.documents.gait_json import parse_gait

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.motion.trajectory_npz import MotionFile, parse_npz

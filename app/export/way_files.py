@@ -5,7 +5,7 @@ from pathlib import Path
 
 from app.common.json import Json
 from app.export.trajectory_files import companion_path, read_text
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.pose_gait import PoseGait

@@ -1,4 +1,4 @@
-"""Views of gaits, plans and verdicts: JSON content for pages and scripts."""
+"""Views of gaits and plans: JSON content for pages and scripts."""
 
 import time
 from dataclasses import asdict, fields
@@ -11,6 +11,7 @@ from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
 from app.gaits.recovery import WayOut
 from app.gaits.thumbnails import footfall_columns
+from app.gaits.verdict_views import approval_view, verdict_view
 from app.plans.plan import Plan, PlanSource
 from app.plans.provenance import provenance_view
 from app.plans.reach_outline_view import reach_rings
@@ -18,7 +19,6 @@ from app.plans.robot_times import robot_times
 from app.plans.verified_result import VerifiedResult
 from core.arrays import Floats
 from core.checks.coupling import real_heights
-from core.findings import Approval, Verdict
 from core.gait.gait import Gait
 from core.gait.mirroring import mirror_of
 from core.gait.motion_source import motion_source
@@ -283,13 +283,3 @@ def live_view(answer: VerifiedResult) -> Json:
     }
     content: Json = finite(figures)
     return content
-
-
-def verdict_view(verdict: Verdict) -> Json:
-    """A verdict with its findings, errors first; indices count from 0."""
-    return {**asdict(verdict), "passed": verdict.passed, "hash": verdict.content_hash}
-
-
-def approval_view(approval: Approval) -> Json:
-    """An approval."""
-    return asdict(approval)

@@ -9,7 +9,7 @@ from typing import Any
 
 from app.bridge.devices import SerialDevice, found_again
 from app.bridge.transport import serial_devices
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.errors import FootfallError
 
 logger = logging.getLogger(__name__)

@@ -19,7 +19,8 @@ from app.export.source import Exportable
 from app.export.svg import svg
 from app.scripting.html import table
 from app.scripting.options import command_options
-from app.store.gait_files import GaitFiles, default_data_folder, write_atomically
+from app.store.gait_files import GaitFiles, default_data_folder
+from app.store.plain_file import write_atomically
 from core.arrays import Bools, Floats
 from core.errors import InputError, NotFoundError
 from core.gait.gait import Gait as Document

@@ -30,7 +30,7 @@ from app.scripting.gaits import Gait, gait
 from app.scripting.html import Cell, paragraph, table
 from app.scripting.options import command_options
 from app.scripting.robots import Robot
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.arrays import Bools, Floats
 from core.errors import CheckError, InfeasibleError, InputError
 from core.gait.gait import Gait as Document

@@ -6,13 +6,12 @@ import re
 import sys
 import time
 from collections.abc import Callable, Set
-from contextlib import suppress
 from itertools import chain, count
 from pathlib import Path
 
 from app.documents.gait_json import gait_content
 from app.documents.stored_gait import StoredGait, stored_gait
-from app.store.plain_file import read_plain_file
+from app.store.plain_file import read_plain_file, write_atomically
 from app.store.storage_errors import file_error
 from core.errors import InputError, StorageError
 from core.gait.gait import Gait
@@ -30,39 +29,6 @@ def default_data_folder() -> Path:
     if sys.platform == "win32":
         return Path(os.environ.get("LOCALAPPDATA", Path.home())) / "Footfall Studio"
     return Path(os.environ.get("XDG_DATA_HOME", Path.home() / ".local" / "share")) / "footfall-studio"
-
-
-def write_atomically(path: Path, content: str | bytes, before: Callable[[], object] = lambda: None) -> None:
-    """Writes a file whole or not at all, and on disk when this returns.
-
-    Args:
-        path: the file.
-        content: what it holds from then on.
-        before: called once the new file is on the disk and is about to take its place; what it raises leaves
-            the old one.
-
-    Raises:
-        StorageError: the disk does not take it; what was there before is as it was.
-        InputError: the file cannot be written there.
-    """
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        with partial.open("wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
-            file.flush()
-            os.fsync(file.fileno())
-        before()
-        partial.replace(path)
-        folder = os.open(path.parent, os.O_RDONLY)
-        try:
-            os.fsync(folder)
-        finally:
-            os.close(folder)
-    except OSError as error:
-        raise file_error(error, path) from error
-    finally:
-        with suppress(OSError):
-            partial.unlink(missing_ok=True)
 
 
 def _move(source: Path, target: Path) -> None:

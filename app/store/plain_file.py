@@ -1,10 +1,13 @@
-"""Reads files that anybody may have put there: plain ones only, and without waiting for a pipe."""
+"""Plain files: read without waiting for a pipe that anybody may have put there, written atomically."""
 
 import errno
 import os
 import stat
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
+from app.store.storage_errors import file_error
 from core.errors import InputError
 
 
@@ -39,6 +42,39 @@ def read_plain_file(path: Path, most: int) -> bytes:
             path.name,
         )
     return content
+
+
+def write_atomically(path: Path, content: str | bytes, before: Callable[[], object] = lambda: None) -> None:
+    """Writes a file whole or not at all, and on disk when this returns.
+
+    Args:
+        path: the file.
+        content: what it holds from then on.
+        before: called once the new file is on the disk and is about to take its place; what it raises leaves
+            the old one.
+
+    Raises:
+        StorageError: the disk does not take it; what was there before is as it was.
+        InputError: the file cannot be written there.
+    """
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        with partial.open("wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+            file.flush()
+            os.fsync(file.fileno())
+        before()
+        partial.replace(path)
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+    except OSError as error:
+        raise file_error(error, path) from error
+    finally:
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
 
 
 def _why_not_opened(path: Path, error: OSError) -> str:

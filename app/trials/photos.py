@@ -8,8 +8,9 @@ from typing import Any
 
 from app.common.json import Json
 from app.store.database import Database
-from app.store.gait_files import require_folder, write_atomically
+from app.store.gait_files import require_folder
 from app.store.photo_store import PhotoStore
+from app.store.plain_file import write_atomically
 from app.trials.service import TrialService
 from app.vision.services import VisionServices, ask
 from app.vision.worker import MakePhoto, PhotoFiles, Source

@@ -19,7 +19,7 @@ from app.bench.physics.runs import (
     tipped,
     walked,
 )
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.errors import InputError
 from core.physics.findings import TILT_LIMIT
 from core.physics.parameters import physics_set

@@ -13,7 +13,7 @@ from app.bench.robot.walk import PUBLISHED, as_published
 from app.bench.robot.walked_moves import DECIMALS, Move, WalkedMoves, walks_content
 from app.export.svg import svg
 from app.export.trajectory_files import read_trajectory
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.arrays import Bools, Floats
 from core.errors import CheckError, InputError
 from core.gait.gait import heading_angle

@@ -22,8 +22,7 @@ from app.cli.common.output import INFEASIBLE, NOT_FIT, duration, end_on_signals,
 from app.common.json import Json
 from app.common.signals import Interrupted
 from app.documents.gait_json import gait_content
-from app.store.gait_files import write_atomically
-from app.store.plain_file import read_plain_file
+from app.store.plain_file import read_plain_file, write_atomically
 from core.atlas.row import AtlasRow, RowStatus
 from core.atlas.space import AtlasSpace, default_space, space_from_toml
 from core.errors import InputError

@@ -16,7 +16,7 @@ from app.documents.gait_json import MOST_BYTES, gait_content, parse_gait
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.open_gait import OpenGait
 from app.gaits.trash import ROUTE
-from app.gaits.views import approval_view, verdict_view
+from app.gaits.verdict_views import approval_view, verdict_view
 from app.scene.overlay import plan_poses
 from app.studio.studio import Studio
 from app.web.dependencies import (

@@ -10,7 +10,7 @@ import pytest
 
 from app.export.trajectory_files import companion_path
 from app.export.way_files import is_way_file, read_way_file
-from app.store.gait_files import write_atomically
+from app.store.plain_file import write_atomically
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import standing_pose

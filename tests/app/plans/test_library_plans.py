@@ -7,7 +7,8 @@ import json
 import pytest
 
 from app.gaits.open_gait import fresh_gait
-from app.gaits.views import gait_view, verdict_view
+from app.gaits.verdict_views import verdict_view
+from app.gaits.views import gait_view
 from app.plans.plan import PlanSource, verdict_of
 from app.plans.robot_times import robot_times
 from app.plans.sequence_plan import plan_of

@@ -16,7 +16,8 @@ import pytest
 
 from app.gaits.approvals import ApprovalRequest
 from app.store.database import Database
-from app.store.gait_files import GaitFiles, write_atomically
+from app.store.gait_files import GaitFiles
+from app.store.plain_file import write_atomically
 from app.store.storage_errors import file_error, storage_error
 from core.errors import InputError, StorageDamagedError, StorageError, StorageFullError
 from core.library.library import library

@@ -1,0 +1,107 @@
+"""The motion of a gait document and its verdict; a motion that the document lacks is solved now."""
+
+from functools import partial
+from pathlib import Path
+
+from app.cli.commands_gait import optimise
+from app.cli.common.output import note
+from app.documents.gait_json import parse_gait
+from app.export.trajectory_files import read_text
+from app.plans.sequence_plan import steps_between
+from core.checks.checked_plan import checked_plan
+from core.checks.rules import check_plan
+from core.errors import CheckError, FootfallError, InfeasibleError
+from core.findings import Verdict
+from core.gait.gait import Gait, SequencePart
+from core.gait.manual_motion import manual_motion
+from core.library.new_gait import with_robot
+from core.library.sequence import chain_runs, part_name, require_own, run_of
+from core.motion.trajectory import Trajectory
+from core.pose_gaits.gait_poses import found_gait, pose_problem
+from core.pose_gaits.pose_check import check_poses
+from core.pose_gaits.pose_gait import PoseGait
+from core.recorded.recorded_motion import gait_trajectory
+from core.robot.model import load_robot
+from core.wire.waypoint_merging import plan_waypoints
+from solver_jobs import SolveStatus, solve_live, solve_poses
+
+
+def gait_verdict(path: Path, robot: str | None) -> Verdict:
+    """The verdict on a gait file, with another robot where one is named."""
+    gait = parse_gait(read_text(path), path.name)
+    if robot is not None:
+        gait = with_robot(gait, load_robot(robot))
+    model = load_robot(gait.robot)
+    trajectory = trajectory_of(gait)
+    way = plan_waypoints(model, trajectory, *sending_of(gait))
+    return check_plan(checked_plan(gait, model, trajectory, way))
+
+
+def sending_of(gait: Gait) -> tuple[float, float | None]:
+    """Tolerance, m, and stop bound, s, by which waypoints are merged and cut; poses stay as they are."""
+    return (0.0, None) if gait.poses is not None else (gait.options.merge, gait.options.stop_bound)
+
+
+def trajectory_of(gait: Gait) -> Trajectory:
+    """Recorded, by hand table, or solved now and confirmed; of a sequence those of its parts, chained.
+
+    Raises:
+        InputError: the recorded motion is not that of the document.
+        InfeasibleError: there is no motion.
+        CheckError: the optimiser found none that the checker confirms.
+    """
+    if gait.sequence:
+        motions = [_part_trajectory(index, part) for index, part in enumerate(gait.sequence)]
+        whole = chain_runs(gait, load_robot(gait.robot), motions, partial(steps_between, solve_live))
+        require_own(gait, whole)
+        return whole.trajectory
+    if gait.poses is not None:
+        return poses_of(gait).trajectory
+    if gait.recorded is not None:
+        return gait_trajectory(gait, gait.recorded, load_robot(gait.robot))
+    if gait.segment_table is not None:
+        return manual_motion(gait, load_robot(gait.robot)).trajectory
+    verified = optimise(gait)
+    if verified.status is SolveStatus.SOLVED:
+        return verified.trajectory
+    sentence = " ".join(verified.explanation) or "The optimiser found no motion."
+    if verified.status is SolveStatus.INFEASIBLE:
+        raise InfeasibleError(sentence, gait.name)
+    raise CheckError(sentence, gait.name)
+
+
+def poses_of(gait: Gait) -> PoseGait:
+    """The poses that the document has for what it asks; where it has none they are searched for now.
+
+    Raises:
+        InfeasibleError: none were found.
+        CheckError: the search gave no poses that the checker confirms.
+    """
+    model = load_robot(gait.robot)
+    found = found_gait(gait, model)
+    if found is not None and check_poses(found).confirmed:
+        return found
+    is_bare = gait.poses is None or gait.poses.found is None
+    why = "has no poses yet" if is_bare else "has changed since its poses were found"
+    note(f"“{gait.name}” {why}. The poses are searched for now.")
+    result = solve_poses(pose_problem(gait, model))
+    if result.gait is not None:
+        return result.gait
+    sentence = " ".join(result.explanation)
+    kind = InfeasibleError if result.status is SolveStatus.INFEASIBLE else CheckError
+    raise kind(sentence, gait.name)
+
+
+def _part_trajectory(index: int, part: SequencePart) -> Trajectory:
+    """The motion of a part with all its iterations; a refusal says which part it is about.
+
+    Raises:
+        InfeasibleError: there is no motion.
+        CheckError: no motion was confirmed, or the part makes none.
+    """
+    try:
+        return trajectory_of(run_of(part).gait)
+    except FootfallError as refusal:
+        sentence = f"{part_name(index, part)}, has no motion: {refusal.sentence}"
+        kind = InfeasibleError if isinstance(refusal, InfeasibleError) else CheckError
+        raise kind(sentence, "sequence") from refusal

@@ -64,7 +64,7 @@ class FastestWalk:
         return next((one.explanation for one in (self.cycle, self.walk) if one.gait is None), ())
 
 
-_POSE_LIMITS = {
+_LIMIT_OPTIONS = {
     "margin": ("M", "m", "m that the body stays inside the support polygon, everywhere"),
     "clearance": ("M", "m", "m that a foot rises above the plane of the standing ones"),
     "stop_bound": ("S", "s", "s for which the robot hears no Stop at most"),
@@ -104,7 +104,7 @@ def fastest_command(parser: ArgumentParser) -> None:
     text = "from the standard stance to rest (default 1)"
     add("--cycles", type=whole(1, MOST_CYCLES), default=1, metavar="N", help=text)
     bounds = PoseBounds()
-    for name, (factor, unit, text) in _POSE_LIMITS.items():
+    for name, (factor, unit, text) in _LIMIT_OPTIONS.items():
         least, most = POSE_BOUNDS[name]
         words = f"{text} (default {getattr(bounds, name):g})"
         option = f"--{name.replace('_', '-')}"

@@ -5,13 +5,16 @@ The order of the folders is in `test_rooms.py`.
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
 from collections.abc import Iterable
+from pathlib import Path
 
 import pytest
 
+from app.cli import main
 from tests.repository.source_tree import PAGE_CODE, STATIC, files, imports, listed
 from tests.support.studio_process import PROJECT
 
@@ -27,6 +30,8 @@ ONE_MODULE = {
     "serial": "app/bridge/transport.py",
 }
 """Packages that one module alone imports."""
+HEAVY = SOLVERS | SHAPES | WEB | {"PIL", "app.bench", "cv2", "pydantic", "scipy", "solver_jobs"}
+"""What a command that needs no solver, gait document or server does without."""
 OPENCV_USERS = {"app/vision/video_io.py", "app/vision/blobs.py", "app/vision/checkerboard.py"}
 """Modules that use OpenCV, in processes of their own."""
 SCHEMAS = {"app/documents/gait_json.py", "app/documents/gait_schema.py", "app/cameras/setup_schema.py"}
@@ -189,6 +194,26 @@ def test_the_page_fetches_nothing_from_elsewhere() -> None:
     assert not foreign_addresses('"https://www.w3.org/2000/svg"')
 
 
-def test_the_server_leaves_opencv_to_its_processes() -> None:
-    words = "import sys, app.server.application; sys.exit('cv2' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", words], check=False).returncode == 0
+@pytest.mark.parametrize(
+    ("statement", "unwanted"),
+    [
+        ("import app.server.launch, app.cli.commands_robot", SOLVERS | SHAPES | {"app.bench", "cv2"}),
+        ("main(['--version'])", HEAVY | {"app.cli.commands_plan", "numpy"}),
+        ("main(['--help'])", HEAVY | {"app.cli.commands_plan", "numpy"}),
+        ("main(['check', 'walk.csv'])", HEAVY),
+    ],
+)
+def test_a_command_loads_no_more_than_it_needs(statement: str, unwanted: set[str], tmp_path: Path) -> None:
+    assert main(["manual", "walk", "-o", str(tmp_path / "walk.csv")]) == 0
+    script = f"""
+import atexit, sys
+atexit.register(lambda: print(*sys.modules, file=sys.stderr))
+from app.cli import main
+{statement}
+"""
+    environment = {**os.environ, "PYTHONPATH": str(PROJECT)}
+    words = [sys.executable, "-c", script]
+    done = subprocess.run(words, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
+    loaded = done.stderr.splitlines()[-1].split()
+    assert "app.cli.parser" in loaded
+    assert unwanted.intersection(loaded) == set()

@@ -14,6 +14,7 @@ from typing import TextIO
 
 CONTEXT = multiprocessing.get_context("forkserver")
 LOADED = (
+    "app.cli.commands_robot",
     "app.server.launch",
     "app.vision.worker",
     "solver_jobs.patterns.solve",

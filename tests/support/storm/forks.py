@@ -29,6 +29,7 @@ def run(mark: str, words: list[str]) -> None:
 def main() -> None:
     """Forks a studio a line of standard input."""
     # Not at the top: the studio's worker processes load this module, and need none of it.
+    import app.cli.commands_robot
     import app.server.launch  # noqa: F401
     from core.library.library import library
 

@@ -1,11 +1,10 @@
-"""Runs the tests, the browser tests included: `python -m tests [--all | --soak] [PYTEST ARGUMENTS]`.
+"""Runs the tests, the browser tests included: `python -m tests [--ci | --soak] [PYTEST ARGUMENTS]`.
 
 Without a size it is every test that is neither `heavy` nor `soak`, two files at a time; properties are tried
-with few examples, the same each time. `--all` runs what that leaves out: the heavy tests (cameras, 3D scenes,
-most of the page, the benchmarks' own, a tenth of each soak), and every property with many examples, the same
-each time. `--soak` runs the soaks at full length (fuzz, storms of kills, floods, the oldest versions), and
-every property with other examples each time; it takes long, and a quiet machine. docs/tests.md says when to
-run which.
+with few examples, the same each time. `--ci` runs these and the heavy tests (cameras, 3D scenes, most of the
+page, the benchmarks' own), and every property with many examples, the same each time. `--soak` runs the soaks
+at full length (fuzz, storms of kills, floods, the oldest versions), and every property with other examples
+each time; it takes long, and a quiet machine. docs/tests.md says when to run which.
 
 Where Chromium is absent it is installed on Debian and Ubuntu by their package manager, as root; elsewhere it
 says what to install.
@@ -19,10 +18,12 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from tests.support.chromium import SHELL, chromium_path
 from tests.support.process_defaults import COLOURS, default_environment
@@ -30,8 +31,12 @@ from tests.support.soak import VARIABLE as SOAK
 
 PROJECT = Path(__file__).resolve().parents[1]
 
-LANES = ("-n", "2", "--dist", "loadfile", "--no-loadscope-reorder")
+ENDING = ("--durations=30", "--durations-min=1")
+"""Has a run say which tests were the slowest."""
+LANES = ("-n", "2", "--dist", "loadfile", "--no-loadscope-reorder", *ENDING)
 """Two files at a time, in the order of `conftest.py`; the tests of one file share its studio and its page."""
+UNHURRIED = ("tests/core",)
+"""Folders of tests without a process or a deadline, which may run beside one that keeps to the clock."""
 
 NOTHING_CHOSEN = 5
 """Status of pytest where no test is of a run's marks."""
@@ -43,25 +48,23 @@ class Size:
 
     Args:
         runs: the runs of pytest that it has, as arguments, one after the other.
+        beside: arguments of a run of the folders `UNHURRIED`, which gets the time that the last one leaves.
         environment: what is set besides.
     """
 
     runs: tuple[tuple[str, ...], ...]
+    beside: tuple[str, ...] = ()
     environment: Mapping[str, str] = field(default_factory=dict)
 
 
 _MANY, _EXPLORE = (("--hypothesis-profile", name) for name in ("many", "explore"))
+_CI = ("-m", "(heavy or not soak) and not alone", *_MANY)
 SIZES: Mapping[str, Size] = MappingProxyType(
     {
         "": Size(((*LANES, "-m", "not heavy and not soak"),)),
-        "--all": Size(
-            (
-                (*LANES, "-m", "(heavy or property) and not alone", *_MANY),
-                # What keeps to the clock as a camera does: a file at a time.
-                ("-m", "alone", *_MANY),
-            )
-        ),
-        "--soak": Size((("-m", "soak or property", *_EXPLORE),), {SOAK: "1"}),
+        # What keeps to the clock as a camera does comes last: a file at a time.
+        "--ci": Size(((*LANES, *_CI), ("-m", "alone", *ENDING)), beside=(*_CI, *ENDING)),
+        "--soak": Size((("-m", "soak or property", *_EXPLORE, *ENDING),), environment={SOAK: "1"}),
     }
 )
 """By the word on the command line."""
@@ -86,14 +89,28 @@ def main(words: list[str]) -> int:
     given = environment() | dict(size.environment)
     # Under `nohup`, a terminal that is closed must not end the studios of the tests either.
     apart = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
-    codes = [
-        subprocess.call(
-            [sys.executable, "-m", "pytest", *run, *more], cwd=PROJECT, env=given, start_new_session=apart
-        )
-        for run in size.runs
-    ]
+    pytest = [sys.executable, "-m", "pytest"]
+    options: dict[str, Any] = {"cwd": PROJECT, "env": given, "start_new_session": apart}
+    if size.beside and not more:
+        codes = _run_side_by_side(size, pytest, options)
+    else:
+        codes = [subprocess.call([*pytest, *run, *more], **options) for run in size.runs]
     failed = [code for code in codes if code not in (0, NOTHING_CHOSEN)]
     return failed[0] if failed else min(codes)
+
+
+def _run_side_by_side(size: Size, pytest: list[str], options: dict[str, Any]) -> list[int]:
+    """Runs a size whose last run has another one beside it, which is shown after it; returns the statuses."""
+    *runs, last = size.runs
+    elsewhere = [f"--ignore={folder}" for folder in UNHURRIED]
+    codes = [subprocess.call([*pytest, *run, *elsewhere], **options) for run in runs]
+    with tempfile.TemporaryFile() as shown:
+        patiently = ["nice", "-n", "19", *pytest, *size.beside, *UNHURRIED]
+        beside = subprocess.Popen(patiently, stdout=shown, stderr=subprocess.STDOUT, **options)
+        codes += [subprocess.call([*pytest, *last], **options), beside.wait()]
+        shown.seek(0)
+        sys.stdout.write(shown.read().decode(errors="replace"))
+    return codes
 
 
 def environment() -> dict[str, str]:

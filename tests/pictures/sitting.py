@@ -176,7 +176,7 @@ def write(picture: Image.Image, path: Path) -> None:
 def sitting(browser: Browser, studio: StudioProcess, *, has_scene: bool = True) -> Iterator[Sitting]:
     """A page in light colours, with its first gait shown and the card First steps closed."""
     with opened_page(
-        browser, studio.url, SIZE["width"], SIZE["height"], has_scene=has_scene, is_new=True
+        browser, studio.url, SIZE["width"], SIZE["height"], has_scene=has_scene, gait=None
     ) as page:
         expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
         page.set_default_timeout(WAIT_MS)

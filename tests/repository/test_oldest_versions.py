@@ -91,7 +91,6 @@ def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     shutil.rmtree(folder / "environment")
 
 
-@pytest.mark.heavy
 @pytest.mark.soak
 def test_every_module_loads_with_the_oldest_versions(python: Path) -> None:
     loaded = run(python, "-c", LOAD_ALL, seconds=TEST_SECONDS)

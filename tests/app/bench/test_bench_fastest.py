@@ -12,9 +12,8 @@ from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import load_robot
 from solver_jobs import solve_poses
 
-pytestmark = pytest.mark.heavy
 
-
+@pytest.mark.heavy
 def test_a_row_in_mid_walk_and_one_from_rest() -> None:
     cases = (FastCase("c-gait"), FastCase("c-gait", 1, 0.010, varied=True))
     middle, rest = bench_walks(cases, variations=2)
@@ -27,6 +26,7 @@ def test_a_row_in_mid_walk_and_one_from_rest() -> None:
     assert rest["variations"] == "2 of 2 walk"
 
 
+@pytest.mark.soak
 def test_times_are_told_apart_by_answer() -> None:
     solved, no, *_ = solve_times(mid_walk=3, from_rest=0, seed=4)
     assert (solved["answer"], no["answer"]) == ("solved", "no")
@@ -35,6 +35,7 @@ def test_times_are_told_apart_by_answer() -> None:
     assert 0.0 < solved["ipopt_median_s"] <= solved["median_s"] <= solved["most_s"]
 
 
+@pytest.mark.heavy
 def test_a_cycle_that_is_repeated_goes_on_where_it_ended() -> None:
     gait = solve_poses(PoseProblem(load_robot("deltawalker"), (1, 2, 3, 4), 0.0, step=0.02)).gait
     assert gait is not None

@@ -214,7 +214,7 @@ def test_a_signal_ends_the_command_itself(ending: signal.Signals) -> None:
     assert b"Traceback" not in said
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_row_has_the_figures_of_a_gait_that_is_confirmed_or_its_status() -> None:
     told: list[SearchStep] = []
     grid = Grid(((1, 2, 3, 4),), (0.02, 0.19), (0.006,), (1.5,))

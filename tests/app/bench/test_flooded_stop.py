@@ -23,7 +23,7 @@ def test_every_kind_of_flood_is_measured_from_one_address_and_from_many() -> Non
     assert all(attack.connections > 1024 for name, attack in attacks.items() if name != NO_FLOOD)
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_each_flood_has_a_row_and_the_last_one_is_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
     attacks = {NO_FLOOD: Attack((), 0), "half": Attack((Flood.HALF_HEADS,), CONNECTIONS)}
     monkeypatch.setattr(flooded_stop, "all_attacks", lambda: attacks)

@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-import os
-import secrets
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -23,10 +21,10 @@ from tests.support.fuzz.report import report, tracebacks
 from tests.support.fuzz.requests import Asked, Requests
 from tests.support.fuzz.stock import film, stocked
 from tests.support.fuzz.values import Pairs, Raw, encoded, mutated
-from tests.support.soak import is_soak, soaked
+from tests.support.soak import is_soak, seed_of, soaked
 from tests.support.studio_process import PROGRAM, StudioProcess, running_studio
 
-REQUESTS = soaked(20000, "FOOTFALL_FUZZ_REQUESTS")
+REQUESTS = soaked(20_000, 300, "FOOTFALL_FUZZ_REQUESTS")
 PARTS = 8
 """In which they are sent, each within the time that a test may take on a busy machine."""
 
@@ -57,7 +55,7 @@ class Attack:
 
 @pytest.fixture(scope="module")
 def attack(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Attack]:
-    seed = int(os.environ.get("FOOTFALL_FUZZ_SEED") or secrets.randbelow(10**6))
+    seed = seed_of("FOOTFALL_FUZZ_SEED")
     folder = tmp_path_factory.mktemp("fuzz")
     file = folder / "film.avi"
     file.write_bytes(film())

@@ -5,22 +5,20 @@
 
 from __future__ import annotations
 
-import os
-import secrets
 import sys
 from collections.abc import Iterator
 
 import pytest
 
 from app.emulator.emulated_robot import EmulatedRobot
-from tests.support.soak import soaked
+from tests.support.soak import seed_of, soaked
 from tests.support.storm.storm import Storm
 
-pytestmark = [pytest.mark.heavy, pytest.mark.soak]
+pytestmark = pytest.mark.soak
 
 SPEED = 10.0
 """Seconds of the emulated robot in a second."""
-KILLS = soaked(200, "FOOTFALL_STORM_KILLS")
+KILLS = soaked(200, 20, "FOOTFALL_STORM_KILLS")
 PARTS = 5
 """In which they come, each within the time that a test may take on a busy machine."""
 ENOUGH = 100
@@ -31,7 +29,7 @@ EACH = ("edit", "save", "approval", "job start", "run under way")
 
 @pytest.fixture(scope="module")
 def storm(robot: EmulatedRobot, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Storm]:
-    seed = int(os.environ.get("FOOTFALL_STORM_SEED") or secrets.randbelow(10**6))
+    seed = seed_of("FOOTFALL_STORM_SEED")
     storm = Storm(tmp_path_factory.mktemp("storm"), robot, seed)
     try:
         storm.prepare()

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.heavy
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1440, 900, is_new=True) as opened:
+    with opened_page(browser, studio.url, 1440, 900, gait=None) as opened:
         expect(opened.get_by_label("Gait name")).to_have_value("Fast C-Gait")
         yield opened
 

@@ -163,7 +163,7 @@ def test_a_robot_with_six_legs_walks_too() -> None:
 @pytest.mark.soak
 def test_what_is_called_solved_is_confirmed_whatever_is_asked() -> None:
     statuses = []
-    for problem in random_problems(soaked(40), 20261123, (None,)):
+    for problem in random_problems(soaked(40, 4), 20261123, (None,)):
         result = solve_poses(problem)
         statuses.append(result.status)
         assert (result.status is SolveStatus.SOLVED) == (result.gait is not None)

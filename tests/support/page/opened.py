@@ -18,10 +18,10 @@ _FLAT: dict[Browser, Browser] = {}
 _PROFILES: dict[Browser, BrowserContext] = {}
 _BUSY: set[Browser] = set()
 """Browsers of which a page is open."""
-WALK = (
-    "try { localStorage.getItem('footfall.gait') ?? localStorage.setItem('footfall.gait', 'walk') } catch {}"
+REMEMBER = (
+    "try { localStorage.getItem('footfall.gait') ?? localStorage.setItem('footfall.gait', '%s') } catch {}"
 )
-"""As if the drawn walk was used last, where no gait is remembered: most tests are about drawn gaits."""
+"""As if a gait was used last, where none is remembered."""
 NOT_OURS = ("Failed to load resource", "WebSocket connection to", "THREE.", "[.WebGL")
 """How messages of the browser about the network begin, and those of the 3D client."""
 NO_FRAME = "Object.defineProperty(HTMLIFrameElement.prototype, 'src', { set() {}, get: () => '' })"
@@ -30,17 +30,23 @@ NO_FRAME = "Object.defineProperty(HTMLIFrameElement.prototype, 'src', { set() {}
 
 @contextmanager
 def opened_page(
-    browser: Browser, url: str, width: int, height: int, *, has_scene: bool = True, is_new: bool = False
+    browser: Browser,
+    url: str,
+    width: int,
+    height: int,
+    *,
+    has_scene: bool = True,
+    gait: str | None = "walk",
 ) -> Iterator[Page]:
     """Opens an address in a window of a size, and ends with an error where the page threw one.
 
     Without its 3D scene, which is seconds of drawing in software, where a test has nothing to do with it.
-    A new user's page shows the first gait of the list, any other the walk.
+    It shows a gait, as if that was used last; without one the first of the list, as for a new user.
     """
     drawing = browser if has_scene else flat_browser(browser)
     with window(drawing, url) as page:
-        if not is_new:
-            page.add_init_script(WALK)
+        if gait is not None:
+            page.add_init_script(REMEMBER % gait)
         page.set_viewport_size({"width": width, "height": height})
         page.set_default_timeout(LONG_MS)
         if not has_scene:

@@ -31,7 +31,7 @@ def moving(page: Page) -> list[str]:
 
 
 def test_nothing_moves_by_itself(browser: Browser, studio: StudioProcess) -> None:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         page.emulate_media(reduced_motion="no-preference")
         expect(page.locator(".hold")).to_be_attached()
         page.get_by_role("tab", name="Run").click()

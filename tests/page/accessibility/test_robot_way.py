@@ -25,7 +25,7 @@ SLOW = 0.3
 
 @pytest.fixture(scope="module")
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 800) as opened:
         expect(opened.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
         yield opened
 
@@ -71,7 +71,7 @@ def test_simulated_checked_and_approved(page: Page) -> None:
 
 def test_looked_on_asked_for_and_taken_over(page: Page, browser: Browser, studio: StudioProcess) -> None:
     held = page.get_by_role("group", name="Who is in control")
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as grace:
+    with opened_page(browser, studio.url, 1280, 800) as grace:
         name(grace, "Grace")
         press(grace, "Connect")
         expect(held).to_contain_text("Grace is in control.")

@@ -17,7 +17,7 @@ pytestmark = [pytest.mark.heavy, pytest.mark.alone]
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 900, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 900) as opened:
         expect(opened.get_by_label("Gait name")).not_to_have_value("")
         opened.get_by_role("button", name=re.compile("^Jobs")).click()
         yield opened

@@ -54,7 +54,7 @@ def studio(
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 720) as opened:
         yield opened
 
 

@@ -40,7 +40,7 @@ def video(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 720) as opened:
         yield opened
 
 

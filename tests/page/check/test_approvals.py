@@ -31,7 +31,7 @@ def check(page: Page) -> None:
 def test_warnings_want_a_tick_and_the_approvals_of_a_gait_are_compared(
     browser: Browser, studio: StudioProcess
 ) -> None:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False, gait="walk-manual-0") as page:
+    with opened_page(browser, studio.url, 1280, 720, gait="walk-manual-0") as page:
         page.get_by_role("button", name=re.compile("Operator")).click()
         page.get_by_role("textbox", name="Your name").fill("Ada")
         page.keyboard.press("Enter")
@@ -89,7 +89,7 @@ def test_the_page_says_whose_approval_an_update_of_the_program_took_away_and_why
     keep_approval_of_other_waypoints(tmp_path)
     with (
         running_studio(tmp_path) as studio,
-        opened_page(browser, studio.url, 1280, 720, has_scene=False, gait=GAIT) as page,
+        opened_page(browser, studio.url, 1280, 720, gait=GAIT) as page,
     ):
         page.get_by_role("tab", name="Check & approve").click()
         said = page.get_by_text(

@@ -29,7 +29,7 @@ GHOST = """() => {
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800) as opened:
+    with opened_page(browser, studio.url, 1280, 800, has_scene=True) as opened:
         opened.get_by_role("tab", name="Simulate").click()
         yield opened
 

@@ -17,7 +17,7 @@ PACE = re.compile(r"[0-9]+\.[0-9]{2} mm/s")
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 900, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 900) as opened:
         expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 

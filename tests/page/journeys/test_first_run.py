@@ -24,7 +24,7 @@ COUNT = """() => {
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1440, 900, has_scene=False, gait=None) as opened:
+    with opened_page(browser, studio.url, 1440, 900, gait=None) as opened:
         opened.evaluate(COUNT)
         yield opened
 

@@ -21,7 +21,7 @@ NEAR = 8
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1440, 900, has_scene=False, gait=None) as opened:
+    with opened_page(browser, studio.url, 1440, 900, gait=None) as opened:
         expect(opened.get_by_role("button", name="Simulate", exact=True)).to_be_visible()
         yield opened
 

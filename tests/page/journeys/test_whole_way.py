@@ -15,9 +15,10 @@ from tests.support.page.opened import look, opened_page
 from tests.support.patience import patient_robot
 from tests.support.studio_process import StudioProcess, running_studio, wait_for
 
-SPEED = 5.0
-"""Seconds of the emulated robot in a second: fast, yet slow enough to look on."""
-
+SPEED = 40.0
+"""Seconds of the emulated robot in a second."""
+WALKING = 5.0
+"""The same from the beginning of a run on: slow enough to look on."""
 SLOW = 0.5
 """The same while the page is loaded anew, which a busy machine takes its time for."""
 
@@ -36,7 +37,7 @@ def studio(tmp_path: Path, robot: EmulatedRobot) -> Iterator[StudioProcess]:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 720) as opened:
+    with opened_page(browser, studio.url, 1280, 720, has_scene=True) as opened:
         yield opened
 
 
@@ -89,7 +90,7 @@ def say_who_you_are(page: Page, name: str) -> None:
     page.keyboard.press("Enter")
 
 
-def go_the_robots_way(page: Page) -> None:
+def go_the_robots_way(page: Page, robot: EmulatedRobot) -> None:
     page.get_by_role("tab", name="Run").click()
     expect(page.get_by_text(re.compile("about 8 s")).first).to_be_visible()
     look(page, "before-connecting")
@@ -99,6 +100,7 @@ def go_the_robots_way(page: Page) -> None:
     page.get_by_role("button", name="Arm", exact=True).click()
     expect(status).to_contain_text("armed")
     look(page, "armed")
+    robot.change_speed(WALKING)
     page.get_by_role("button", name="Send to robot").click()
     expect(status).to_contain_text("moving")
 
@@ -110,7 +112,7 @@ def test_from_opening_the_page_to_the_robots_measured_strokes(
     see_the_sample_gait_walk(page)
     change_a_footfall_and_take_it_back(page)
     optimise_check_and_approve(page)
-    go_the_robots_way(page)
+    go_the_robots_way(page, robot)
     wait_for(lambda: (studio.robot()["run"] or {}).get("reached", 0) > 5, "some waypoints are reached", 60)
     robot.change_speed(SLOW)
     page.reload()
@@ -158,7 +160,7 @@ def test_stop_on_the_page_latches_until_it_is_cleared(
     studio.ask("POST", "/api/gaits/walk/check")
     studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True})
     say_who_you_are(page, "Ada")
-    go_the_robots_way(page)
+    go_the_robots_way(page, robot)
     wait_for(lambda: (studio.robot()["run"] or {}).get("reached", 0) > 2, "some waypoints are reached", 60)
     robot.change_speed(SLOW)
     edit_while_the_robot_moves(page)

@@ -39,7 +39,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
 def test_a_course_runs_in_the_background_and_can_be_cancelled(
     browser: Browser, studio: StudioProcess
 ) -> None:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 720) as page:
         open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name="Learn from trials").click()
@@ -77,7 +77,7 @@ def test_a_course_is_asked_for_again_only_where_the_studio_does_not_answer(
         else:
             route.fulfill(status=500, json={"error": "The disk is full.", "where": None})
 
-    with opened_page(browser, studio.url, 1024, 768, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1024, 768) as page:
         page.route("**/api/learning", lambda route: route.fulfill(json={"courses": [on]}))
         page.route("**/api/learning/made", answer)
         open_drawer(page, "Trials")
@@ -92,7 +92,7 @@ def test_a_course_is_asked_for_again_only_where_the_studio_does_not_answer(
 def test_what_was_learned_is_kept_chosen_in_simulate_deleted_and_brought_back(
     browser: Browser, studio: StudioProcess
 ) -> None:
-    with opened_page(browser, studio.url, 1024, 768, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1024, 768) as page:
         open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name="Learn from trials").click()

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.heavy
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1024, 768, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1024, 768) as opened:
         yield opened
 
 

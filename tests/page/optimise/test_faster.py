@@ -31,7 +31,7 @@ def gait(studio: StudioProcess) -> str:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess, gait: str) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 800) as opened:
         choose(opened, "Slow")
         yield opened
 

@@ -31,7 +31,7 @@ def made(studio: StudioProcess) -> dict[str, str]:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess, made: dict[str, str]) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 720) as opened:
         expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.heavy
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 800) as opened:
         expect(opened.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
         yield opened
 

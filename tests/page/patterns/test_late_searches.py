@@ -72,7 +72,7 @@ class SlowSearches:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as opened:
         yield opened
 
 

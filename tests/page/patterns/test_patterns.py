@@ -24,7 +24,7 @@ SEARCH = {"include": [[".pattern-panel"], [".pattern-view"], [".right .tabs"]]}
 @pytest.fixture(scope="module")
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     """A page without its 3D scene, with the pattern search open."""
-    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as opened:
         opened.goto(studio.url)
         expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
@@ -154,7 +154,7 @@ def test_a_transition_follows_its_cursors_and_becomes_a_gait(search: Page, studi
 def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
     browser: Browser, studio: StudioProcess
 ) -> None:
-    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800, has_scene=False) as other:
+    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as other:
         late = LateList(other)
         other.goto(studio.url)
         choose_gait(other, "Walk 10 mm")

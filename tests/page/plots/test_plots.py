@@ -102,7 +102,7 @@ PICTURE = """async ({ content, overs }) => {
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 720) as opened:
         wait_for(lambda: "good" in painted(opened, "margin"), "the margin is drawn")
         yield opened
 

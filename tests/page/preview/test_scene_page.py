@@ -19,7 +19,7 @@ INSIDE = "document.querySelector('#viser').contentWindow?.__viserMutable"
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800) as opened:
+    with opened_page(browser, studio.url, 1280, 800, has_scene=True) as opened:
         wait_for_scene(opened)
         yield opened
 
@@ -115,7 +115,7 @@ def test_two_pages_on_different_robots_each_see_their_own(
     page: Page, browser: Browser, studio: StudioProcess
 ) -> None:
     assert studio.ask("POST", "/api/gaits/drawn", {"name": "Six", "robot": "hexapod"}).status == 201
-    with opened_page(browser, studio.url, 1024, 768) as other:
+    with opened_page(browser, studio.url, 1024, 768, has_scene=True) as other:
         wait_for_scene(other)
         other.get_by_role("list", name="Gaits").get_by_role("button", name="Six").click()
         wait_until_visible(other, "/overlay/swing6", True)

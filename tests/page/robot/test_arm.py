@@ -14,7 +14,7 @@ pytestmark = pytest.mark.heavy
 
 
 def test_a_name_is_asked_for_before_the_robot_is_armed(browser: Browser, studio: StudioProcess) -> None:
-    with opened_page(browser, studio.url, 1280, 900, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 900) as page:
         page.get_by_role("tab", name="Run").click()
         page.get_by_role("button", name="Connect", exact=True).click()
         status = page.get_by_role("status", name="Robot")

@@ -23,7 +23,7 @@ SCROLL_BACK = "() => { document.getElementById('sections').scrollTop -= 120; }"
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 900, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 900) as opened:
         name(opened, "Ada")
         opened.get_by_text("Jog: move a motor").click()
         yield opened

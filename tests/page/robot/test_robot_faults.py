@@ -15,7 +15,7 @@ def test_a_fault_is_chosen_and_its_effect_is_shown(
 ) -> None:
     with (
         running_studio(tmp_path_factory.mktemp("data")) as studio,
-        opened_page(browser, studio.url, 1280, 720, has_scene=False) as page,
+        opened_page(browser, studio.url, 1280, 720) as page,
     ):
         name(page, "Ada")
         page.get_by_text("Faults of the emulated robot").click()

@@ -20,14 +20,14 @@ SPEED = 20.0
 
 @pytest.fixture
 def ada(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 720) as page:
         name(page, "Ada")
         yield page
 
 
 @pytest.fixture
 def grace(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 720) as page:
         name(page, "Grace")
         yield page
 

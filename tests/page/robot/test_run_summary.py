@@ -25,7 +25,7 @@ def test_the_names_stand_in_one_line_beside_a_long_reason(
         slow = {"stop_seconds": 1.31, "scan_seconds": 0.52, "start_distance_mm": 5.0, "start_moves": 2}
         route.fulfill(response=answer, json=answer.json() | slow)
 
-    with opened_page(browser, studio.url, width, height, has_scene=False) as page:
+    with opened_page(browser, studio.url, width, height) as page:
         page.route("**/api/gaits/*/run?*", altered)
         page.reload()
         page.get_by_role("tab", name="Run").click()

@@ -17,7 +17,7 @@ def test_the_stop_bound_says_what_it_costs_and_a_change_takes_the_approval(
     assert studio.ask("POST", "/api/gaits/walk/check").content["passed"]
     assert studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True}).status == 200
     before = studio.ask("GET", "/api/gaits/walk/view").content
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 720) as page:
         page.get_by_role("tab", name="Check & approve").click()
         table = page.get_by_role("table", name="Time on the robot")
         expect(table.get_by_role("row")).to_have_count(4)

@@ -37,7 +37,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 800) as opened:
         expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 

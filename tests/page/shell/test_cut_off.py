@@ -45,7 +45,7 @@ def line() -> Line:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess, line: Line) -> Iterator[Page]:
-    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as opened:
         opened.route_web_socket("**/api/events*", line.accept)
         opened.goto(studio.url)
         expect(opened.get_by_role("status", name="Verdict")).to_contain_text("margin")

@@ -16,7 +16,7 @@ from tests.support.studio_process import StudioProcess
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     """A new user's page; its first gait is one for the robot's clock."""
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False, gait=None) as opened:
+    with opened_page(browser, studio.url, 1280, 800, gait=None) as opened:
         expect(opened.get_by_role("status", name="Verdict")).to_contain_text("margin")
         yield opened
 

@@ -17,7 +17,7 @@ SHARES_STUDIO = True
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     """A new user's page."""
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False, gait=None) as opened:
+    with opened_page(browser, studio.url, 1280, 800, gait=None) as opened:
         expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.page.drawers import open_drawer
-from tests.support.page.labels import label_problems, require_whole_labels
+from tests.support.page.labels import Scheme, label_problems, require_whole_labels
 from tests.support.page.opened import leave_scene_out
 from tests.support.patience import patient_robot
 from tests.support.studio_process import StudioProcess, running_studio, wait_for
@@ -66,8 +66,12 @@ def choose(page: Page, name: str) -> None:
 
 
 def test_no_label_is_cut_and_no_two_texts_overlap(page: Page, studio: StudioProcess, tmp_path: Path) -> None:
+    # Places do not depend on the colours: both are looked at in one size only.
+    is_first = page.viewport_size == {"width": SIZES[0][0], "height": SIZES[0][1]}
+    schemes: tuple[Scheme, ...] = ("light", "dark") if is_first else ("light",)
+
     def look(state: str) -> None:
-        require_whole_labels(page, state, tmp_path)
+        require_whole_labels(page, state, tmp_path, schemes)
 
     look("design")
     for name in ("Jobs", "Runs", "Trials", "Gaits"):

@@ -18,7 +18,7 @@ SHARES_STUDIO = True
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 720) as opened:
         expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 

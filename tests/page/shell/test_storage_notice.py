@@ -21,7 +21,7 @@ def test_a_damaged_database_is_told_for_as_long_as_the_page_is_open(browser: Bro
     overwrite_table(tmp_path / "studio.sqlite3", "job")
     with (
         running_studio(tmp_path) as studio,
-        opened_page(browser, studio.url, 1024, 768, has_scene=False) as page,
+        opened_page(browser, studio.url, 1024, 768) as page,
     ):
         notice = page.locator("#storage-notice")
         expect(notice).to_contain_text(good)
@@ -38,7 +38,7 @@ def test_nothing_is_told_where_all_is_well(browser: Browser, tmp_path: Path) -> 
     fill(tmp_path, 1)
     with (
         running_studio(tmp_path) as studio,
-        opened_page(browser, studio.url, 1024, 768, has_scene=False) as page,
+        opened_page(browser, studio.url, 1024, 768) as page,
     ):
         expect(page.get_by_role("list", name="Gaits").get_by_role("listitem").first).to_be_visible()
         expect(page.locator("#storage-notice")).to_be_hidden()

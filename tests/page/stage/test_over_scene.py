@@ -52,7 +52,7 @@ def settle(page: Page) -> None:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1440, 900) as opened:
+    with opened_page(browser, studio.url, 1440, 900, has_scene=True) as opened:
         wait_for_scene(opened)
         settle(opened)
         yield opened

@@ -22,7 +22,7 @@ SHARES_STUDIO = True
 
 @pytest.fixture(scope="module")
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 800) as opened:
         yield opened
 
 
@@ -166,7 +166,7 @@ def test_old_approvals_do_not_take_the_place_of_new_ones(page: Page, studio: Stu
 
 def test_a_gait_that_is_not_listed_yet_is_copied_and_deleted(browser: Browser, studio: StudioProcess) -> None:
     made(studio, "Fresh")
-    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800, has_scene=False) as page:
+    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as page:
         late = LateList(page)
         page.goto(studio.url)
         choose(page, "Fresh")
@@ -187,7 +187,7 @@ def test_a_gait_that_is_not_listed_yet_is_copied_and_deleted(browser: Browser, s
 def test_a_gait_that_is_not_listed_yet_stays_when_the_line_opens_anew(
     browser: Browser, studio: StudioProcess
 ) -> None:
-    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800, has_scene=False) as page:
+    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as page:
         page.goto(studio.url)
         expect(page.get_by_label("Gait name")).not_to_have_value("")
         kept = page.evaluate(

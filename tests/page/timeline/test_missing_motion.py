@@ -36,7 +36,7 @@ HIT = """(flag) => {
 
 @pytest.fixture(scope="module")
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 800) as opened:
         yield opened
 
 

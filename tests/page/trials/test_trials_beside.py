@@ -52,7 +52,7 @@ def test_physics_stands_beside_plan_and_track_once_it_is_there(
 ) -> None:
     add_trial(studio, "with plan")
     add_trial(studio, "without plan", gait="")
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         panel = open_trials(page)
         panel.get_by_role("button", name=re.compile("^with plan")).click()
         expect(panel.get_by_role("table", name="Movement as published")).to_be_visible()
@@ -76,7 +76,7 @@ def test_tracks_lie_over_the_gait_in_3d_follow_the_playhead_and_go_with_the_pane
     browser: Browser, studio: StudioProcess
 ) -> None:
     add_trial(studio, "in 3D")
-    with opened_page(browser, studio.url, 1280, 800) as page:
+    with opened_page(browser, studio.url, 1280, 800, has_scene=True) as page:
         page.wait_for_function(f"() => {INSIDE}?.nodeRefFromName['/tracks/marks'] !== undefined")
         panel = open_trials(page)
         panel.get_by_role("button", name=re.compile("^in 3D")).click()
@@ -102,7 +102,7 @@ def test_trials_of_one_gait_lie_over_each_other_as_a_band(browser: Browser, stud
     gait = studio.ask("POST", "/api/gaits?copy_of=walk&name=Apart").content["id"]
     add_trial(studio, "short", 0.0080, gait=gait)
     add_trial(studio, "long", 0.0100, gait=gait, expected_cm=1.5)
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         panel = open_trials(page)
         panel.get_by_role("button", name="Show band of Apart, 1.0 cm").click()
         above = panel.get_by_role("img", name=re.compile("^Trials from above: foot 1 ends ± 0.14 cm"))
@@ -119,7 +119,7 @@ def test_photos_are_added_captioned_dropped_deleted_and_brought_back(
     browser: Browser, studio: StudioProcess
 ) -> None:
     add_trial(studio, "with photos", gait="")
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         panel = open_trials(page)
         panel.get_by_role("button", name=re.compile("^with photos")).click()
         photos = panel.get_by_role("region", name="Photos of this trial")

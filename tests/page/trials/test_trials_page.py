@@ -28,7 +28,7 @@ def track(tmp_path: Path) -> Path:
 def test_an_empty_list_offers_an_example_that_is_marked_and_never_learned_from(
     browser: Browser, studio: StudioProcess
 ) -> None:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name="Look at an example").click()
@@ -52,7 +52,7 @@ def test_an_empty_list_offers_an_example_that_is_marked_and_never_learned_from(
 def test_a_track_is_added_compared_moved_deleted_and_brought_back(
     browser: Browser, studio: StudioProcess, track: Path
 ) -> None:
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         expect(page.get_by_label("Gait name")).not_to_have_value("")  # the distance is that of the shown gait
         open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
@@ -88,7 +88,7 @@ def test_the_whole_line_of_an_iterations_end_is_dragged_and_lies_where_the_hand_
     csv = format_track_csv(stepping_track((0.0085, 0.0085), 2))
     body = {"name": "dragged", "csv": csv, "expected_cm": 2.0, "iterations": 2}
     trial = studio.ask("POST", "/api/trials", body).content
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name=re.compile("^dragged")).click()
@@ -122,7 +122,7 @@ def test_where_pictures_come_unevenly_the_ends_of_iterations_stand_at_their_time
         content["track"]["shares"] = [share**2 for share in content["track"]["shares"]]
         route.fulfill(json=content)
 
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         page.route("**/paths", slower_and_slower)
         open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
@@ -145,7 +145,7 @@ def test_a_trial_that_is_changed_elsewhere_is_followed_and_what_was_typed_stays(
     csv = format_track_csv(stepping_track((0.0085, 0.0085), 1))
     trial = studio.ask("POST", "/api/trials", {"name": "shared", "csv": csv, "expected_cm": 1.0}).content
     at = f"/api/trials/{trial['id']}"
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name=re.compile("^shared")).click()

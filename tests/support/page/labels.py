@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Literal
 
 from playwright.sync_api import Page
 
 MEASURE = Path(__file__).with_suffix(".js").read_text()
+
+Scheme = Literal["light", "dark"]
 
 
 def label_problems(page: Page) -> list[str]:
@@ -15,16 +19,19 @@ def label_problems(page: Page) -> list[str]:
     return problems
 
 
-def require_whole_labels(page: Page, state: str, folder: Path) -> None:
-    """Fails with a picture where a text is cut or lies on another one, in light and in dark.
+def require_whole_labels(
+    page: Page, state: str, folder: Path, schemes: Sequence[Scheme] = ("light", "dark")
+) -> None:
+    """Fails with a picture where a text is cut or lies on another one.
 
     Args:
         page: as it is.
         state: what it shows, for the message and the picture's name.
         folder: where the picture is kept.
+        schemes: colours in which the page is looked at.
     """
-    for scheme in ("light", "dark"):
-        page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
+    for scheme in schemes:
+        page.emulate_media(color_scheme=scheme)
         problems = label_problems(page)
         if problems:
             picture = folder / f"{state.replace(' ', '-')}-{scheme}.png"

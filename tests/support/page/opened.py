@@ -35,13 +35,13 @@ def opened_page(
     width: int,
     height: int,
     *,
-    has_scene: bool = True,
+    has_scene: bool = False,
     gait: str | None = "walk",
 ) -> Iterator[Page]:
     """Opens an address in a window of a size, and ends with an error where the page threw one.
 
-    Without its 3D scene, which is seconds of drawing in software, where a test has nothing to do with it.
-    It shows a gait, as if that was used last; without one the first of the list, as for a new user.
+    It has a 3D scene, which is seconds of drawing in software, only where a test looks at it.
+    The page shows a gait, as if that was used last; without one the first of the list, as for a new user.
     """
     drawing = browser if has_scene else flat_browser(browser)
     with window(drawing, url) as page:

@@ -18,7 +18,7 @@ WALK = "walk-manual-0"
 @contextmanager
 def opened_segments(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     """One page for a whole file, which may use the clipboard: each test has a gait of its own."""
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
+    with opened_page(browser, studio.url, 1280, 800) as opened:
         opened.context.grant_permissions(["clipboard-read", "clipboard-write"])
         yield opened
 

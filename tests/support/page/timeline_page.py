@@ -158,7 +158,7 @@ def painted(feet: Sequence[str], foot: int, first: int, last: int, value: str) -
 @contextmanager
 def opened_timeline(browser: Browser, studio: StudioProcess) -> Iterator[TimelinePage]:
     """A page with its timeline drawn."""
-    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+    with opened_page(browser, studio.url, 1280, 800) as page:
         page.get_by_role("grid", name="Footfall timeline").get_by_role("row").first.wait_for()
         # The gait that the page opens by itself must not come after the one that a test opens.
         expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")

@@ -32,10 +32,10 @@ UNUSED = (
 )
 """Features of Chromium that no test needs."""
 
-WORDS = [*CHROMIUM_WORDS, f"--disable-features={','.join(UNUSED)}"]
+SCENE_WORDS = [*CHROMIUM_WORDS, f"--disable-features={','.join(UNUSED)}"]
 """With a 3D scene."""
-FLAT_WORDS = [
-    *(word for word in WORDS if "gl" not in word.partition("=")[0] and "swift" not in word),
+WORDS = [
+    *(word for word in SCENE_WORDS if "gl" not in word.partition("=")[0] and "swift" not in word),
     "--disable-gpu",
 ]
 """Without one: an emulated GPU costs a quarter of a page's time."""

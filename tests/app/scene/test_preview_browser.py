@@ -10,6 +10,7 @@ from PIL import Image
 from playwright.sync_api import Browser, Page
 
 from app.scene import Scenes
+from tests.support.page.opened import scene_browser
 from tests.support.page.preview_page import preview_application, walk
 from tests.support.page.serving import serving, stop_under_clients
 
@@ -45,7 +46,7 @@ def address(scenes: Scenes) -> Iterator[str]:
 
 @pytest.fixture
 def page(browser: Browser, address: str) -> Iterator[Page]:
-    page = browser.new_page(viewport={"width": 800, "height": 500})
+    page = scene_browser(browser).new_page(viewport={"width": 800, "height": 500})
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(address)
@@ -266,7 +267,7 @@ def test_panels_of_the_client_are_hidden(page: Page) -> None:
 
 
 def test_a_client_whose_inside_is_closed_is_moved_through_the_server(browser: Browser, address: str) -> None:
-    page = browser.new_page(viewport={"width": 640, "height": 400})
+    page = scene_browser(browser).new_page(viewport={"width": 640, "height": 400})
     page.add_init_script(
         """Object.defineProperty(window, "__viserMutable", {
           get: () => undefined, set(value) { window.closedInside = value; }, configurable: true })"""

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from core.robot.model import load_robot
-from tests.support.page.opened import opened_page
+from tests.support.page.opened import opened_page, scene_browser
 from tests.support.studio_process import StudioProcess
 
 pytestmark = [pytest.mark.heavy, pytest.mark.alone]
@@ -130,7 +130,7 @@ def test_two_pages_on_different_robots_each_see_their_own(
 
 
 def test_with_a_gpu_the_robot_throws_a_shadow(browser: Browser, studio: StudioProcess) -> None:
-    page = browser.new_page(viewport={"width": 1024, "height": 640})
+    page = scene_browser(browser).new_page(viewport={"width": 1024, "height": 640})
     # Only what the page takes from it is tried here: this machine may have no GPU.
     page.add_init_script(
         "Object.defineProperty(window, 'footfallSoftwareDrawing', { get: () => false, set: () => {} })"

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
 from tests.support.chromium import LONG_MS
 from tests.support.page.drawers import gait_act
-from tests.support.page.opened import flat_browser, leave_scene_out
+from tests.support.page.opened import leave_scene_out
 from tests.support.studio_process import StudioProcess, wait_for
 
 pytestmark = pytest.mark.heavy
@@ -26,7 +26,7 @@ def gait(studio: StudioProcess) -> str:
 
 @pytest.fixture
 def context(browser: Browser) -> Iterator[BrowserContext]:
-    opened = flat_browser(browser).new_context(viewport={"width": 1100, "height": 740})
+    opened = browser.new_context(viewport={"width": 1100, "height": 740})
     opened.set_default_timeout(LONG_MS)
     leave_scene_out(opened)
     yield opened

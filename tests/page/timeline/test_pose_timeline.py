@@ -15,8 +15,9 @@ pytestmark = pytest.mark.heavy
 
 
 @pytest.fixture
-def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1440, 900, gait=None) as opened:
+def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest) -> Iterator[Page]:
+    has_scene = "scene" in request.keywords
+    with opened_page(browser, studio.url, 1440, 900, gait=None, has_scene=has_scene) as opened:
         expect(opened.get_by_label("Gait name")).to_have_value("Fast C-Gait")
         yield opened
 
@@ -68,6 +69,7 @@ def test_a_search_is_cancelled_and_begun_again_and_the_timeline_is_not_drawn_on(
     expect(page.get_by_role("button", name="Undo")).to_have_attribute("aria-disabled", "true")
 
 
+@pytest.mark.scene
 def test_a_pose_that_is_dragged_is_pinned_and_let_go(page: Page) -> None:
     answer = page.get_by_role("status", name="Verdict")
     expect(answer).to_contain_text("Plan margin")
@@ -99,6 +101,7 @@ def test_a_pose_that_is_dragged_is_pinned_and_let_go(page: Page) -> None:
     expect(page.get_by_role("button", name="Undo")).to_have_attribute("aria-disabled", "true")
 
 
+@pytest.mark.scene
 def test_a_pose_that_is_dragged_too_far_is_drawn_nearer_and_a_click_moves_nothing(page: Page) -> None:
     answer = page.get_by_role("status", name="Verdict")
     expect(answer).to_contain_text("Plan margin")

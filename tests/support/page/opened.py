@@ -10,11 +10,11 @@ from urllib.parse import urljoin
 
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect
 
-from tests.support.chromium import FLAT_WORDS, LONG_MS, chromium_path
+from tests.support.chromium import LONG_MS, SCENE_WORDS, chromium_path
 from tests.support.spent_seconds import spending
 
-_FLAT: dict[Browser, Browser] = {}
-"""Beside each browser one that draws without a GPU, real or emulated; it ends with its Playwright."""
+_SCENE: dict[Browser, Browser] = {}
+"""Beside each browser one that draws 3D scenes; it ends with its Playwright."""
 _PROFILES: dict[Browser, BrowserContext] = {}
 _BUSY: set[Browser] = set()
 """Browsers of which a page is open."""
@@ -43,7 +43,7 @@ def opened_page(
     It has a 3D scene, which is seconds of drawing in software, only where a test looks at it.
     The page shows a gait, as if that was used last; without one the first of the list, as for a new user.
     """
-    drawing = browser if has_scene else flat_browser(browser)
+    drawing = scene_browser(browser) if has_scene else browser
     with window(drawing, url) as page:
         if gait is not None:
             page.add_init_script(REMEMBER % gait)
@@ -97,11 +97,11 @@ def window(browser: Browser, url: str) -> Iterator[Page]:
         _BUSY.discard(browser)
 
 
-def flat_browser(browser: Browser) -> Browser:
-    """A browser for pages without a 3D scene: an emulated GPU costs a quarter of their time."""
-    if browser not in _FLAT:
-        _FLAT[browser] = browser.browser_type.launch(executable_path=chromium_path(), args=FLAT_WORDS)
-    return _FLAT[browser]
+def scene_browser(browser: Browser) -> Browser:
+    """A browser for 3D scenes beside the one for everything else."""
+    if browser not in _SCENE:
+        _SCENE[browser] = browser.browser_type.launch(executable_path=chromium_path(), args=SCENE_WORDS)
+    return _SCENE[browser]
 
 
 def leave_scene_out(where: Page | BrowserContext) -> None:

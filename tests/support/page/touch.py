@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from playwright.sync_api import Browser, Locator, Page
 
 from tests.support.chromium import LONG_MS
-from tests.support.page.opened import REMEMBER, flat_browser, leave_scene_out
+from tests.support.page.opened import REMEMBER, leave_scene_out
 
 WIDTH, HEIGHT = 820, 1180
 """A tablet on end."""
@@ -18,9 +18,7 @@ LONG_PRESS_MS = 900
 @contextmanager
 def touch_page(browser: Browser, url: str) -> Iterator[Page]:
     """The page on a tablet without a mouse."""
-    context = flat_browser(browser).new_context(
-        viewport={"width": WIDTH, "height": HEIGHT}, has_touch=True, is_mobile=True
-    )
+    context = browser.new_context(viewport={"width": WIDTH, "height": HEIGHT}, has_touch=True, is_mobile=True)
     context.add_init_script(REMEMBER % "walk")
     leave_scene_out(context)
     page = context.new_page()

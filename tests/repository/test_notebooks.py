@@ -22,7 +22,7 @@ PLACES = re.compile(r"/(?:home|root|tmp|work|Users|var)/|[A-Z]:\\|[0-9]{4}-[0-9]
 MOST_BYTES, CELLS = 150_000, range(6, 16)
 COUNT = 11
 QUICK = ("06_limbs_held_up", "10_export_for_others")
-"""The notebooks that `python -m tests --all` runs."""
+"""The notebooks that `python -m tests --ci` runs."""
 ALL_SECONDS = 300
 """Of all notebooks together, on a machine that does nothing else."""
 

@@ -54,6 +54,7 @@ def test_the_first_two_blocks_are_run_and_test_in_plain_lines() -> None:
     assert not any("#" in line or "\\" in line for line in run + test)
 
 
+@pytest.mark.heavy
 def test_the_commands_without_a_browser_work_one_after_the_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

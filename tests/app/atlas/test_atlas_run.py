@@ -78,6 +78,7 @@ def test_chunks_are_what_lacks(tmp_path: Path) -> None:
     empty.close()
 
 
+@pytest.mark.heavy
 def test_a_wish_to_end_keeps_what_is_done(tmp_path: Path) -> None:
     asked = iter([True, False])
     part = AtlasFile(tmp_path / "part.sqlite", SPACE)

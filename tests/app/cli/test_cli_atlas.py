@@ -42,6 +42,7 @@ def space(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.heavy
 def test_a_space_becomes_an_atlas_whose_best_gaits_are_shown_and_opened(
     capsys: pytest.CaptureFixture[str], space: Path, tmp_path: Path
 ) -> None:

@@ -17,6 +17,7 @@ from tests.support.command import run, run_json
 from tests.support.patience import patient_robot
 
 
+@pytest.mark.heavy
 def test_a_walk_is_written_and_every_other_command_takes_it(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
@@ -99,6 +100,7 @@ def test_a_step_that_no_motor_reaches_is_infeasible_with_the_longest_that_works(
     assert not way.exists()
 
 
+@pytest.mark.heavy
 def test_a_turn_on_the_spot_is_a_gait_that_turns(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     file = tmp_path / "turn.json"
     words = ("rotate", "--step", "0", "--turn", "-0.3", "-o", str(file))
@@ -113,6 +115,7 @@ def test_a_turn_on_the_spot_is_a_gait_that_turns(capsys: pytest.CaptureFixture[s
     assert run_json(capsys, "check", str(file))[0] == 0
 
 
+@pytest.mark.heavy
 def test_a_gait_file_opens_as_a_gait(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     file = tmp_path / "gait.json"
     words = ("c-gait", "--step", "0.010", "--direction", "2", "-o", str(file))

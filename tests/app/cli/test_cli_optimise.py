@@ -272,6 +272,7 @@ def test_margins_below_0_are_refused_and_foot_speed_is_kept(capsys: pytest.Captu
     assert (status, answer["status"]) == (3, "infeasible")
 
 
+@pytest.mark.heavy
 def test_what_would_help_is_a_command_that_can_be_copied(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

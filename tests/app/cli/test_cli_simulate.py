@@ -95,6 +95,7 @@ def test_a_foot_that_is_lifted_from_under_the_body_ends_with_status_4(
     assert any(finding["severity"] == "error" for finding in answer["findings"])
 
 
+@pytest.mark.heavy
 def test_a_gait_file_is_simulated_as_it_would_be_sent(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

@@ -147,6 +147,7 @@ def test_a_gait_that_turns_has_no_pinned_poses_and_says_that_soles_pivot() -> No
     assert "°/s" in turn.note
 
 
+@pytest.mark.heavy
 def test_a_search_without_an_answer_says_why() -> None:
     document = asked(0.15)
     result = solve_poses(pose_problem(document, MODEL))

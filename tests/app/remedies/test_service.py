@@ -53,6 +53,7 @@ def test_a_gait_that_walks_gets_none(service: RemedyService) -> None:
     assert (state["remedies"], state["searching"], state["trying"]) == ([], False, False)
 
 
+@pytest.mark.heavy
 def test_they_are_shown_as_they_are_found_and_marked_when_physics_has_tried_them(
     service: RemedyService,
 ) -> None:
@@ -71,6 +72,7 @@ def test_they_are_shown_as_they_are_found_and_marked_when_physics_has_tried_them
         assert remedy["balance"] >= remedy["margin"] - 1e-4
 
 
+@pytest.mark.heavy
 def test_overlaps_get_the_finished_drawing_too(service: RemedyService) -> None:
     last = states_of(service, OVERLAPPING)[-1]
     kinds = [remedy["kind"] for remedy in last["remedies"]]

@@ -38,6 +38,7 @@ def converted(studio: StudioProcess, gait: str, to: str, **more: Any) -> Any:
     return studio.ask("POST", f"/api/gaits/{gait}/convert", {"to": to, **more})
 
 
+@pytest.mark.heavy
 def test_both_sides_are_shown_and_what_was_found_is_taken_without_another_search(
     studio: StudioProcess, gait: str
 ) -> None:

@@ -71,6 +71,7 @@ def search_of(studio: StudioProcess, job: str) -> dict[str, Any]:
     return content
 
 
+@pytest.mark.heavy
 def test_one_search_at_a_time_tells_how_far_it_is_and_is_cancelled(studio: StudioProcess) -> None:
     job = studio.ask("POST", "/api/fastest/searches", {**ASKED, "front": True}).content["id"]
     second = studio.ask("POST", "/api/fastest/searches", ASKED)

@@ -75,6 +75,7 @@ def test_an_edit_is_adapted_then_solved_and_undo_needs_no_search(studio: StudioP
     assert verdict["costs"] == []  # nothing is merged or cut
 
 
+@pytest.mark.heavy
 def test_a_search_is_cancelled_and_begun_again(studio: StudioProcess, gait: str) -> None:
     document = solved(studio, gait)["document"]
     answer = studio.ask("PUT", f"/api/gaits/{gait}", {**document, "iterations": 4, "step": [0.020, 0.0, 0.0]})
@@ -132,6 +133,7 @@ def test_merging_is_nothing_to_it_and_a_pinned_pose_is_refused_where_there_is_no
     assert view(studio, gait)["revision"] == after["revision"]
 
 
+@pytest.mark.heavy
 def test_an_edit_back_to_what_was_solved_before_takes_its_poses_and_step(
     studio: StudioProcess, gait: str
 ) -> None:
@@ -152,6 +154,7 @@ def test_an_edit_back_to_what_was_solved_before_takes_its_poses_and_step(
     assert studio.ask("POST", f"/api/gaits/{gait}/check").content["passed"]
 
 
+@pytest.mark.heavy
 def test_a_pose_that_is_pinned_far_away_is_drawn_nearer_and_the_search_says_no(
     studio: StudioProcess, gait: str
 ) -> None:

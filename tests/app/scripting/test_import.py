@@ -57,6 +57,7 @@ def test_six_lines_lead_from_a_name_to_measured_strokes(tmp_path: Path) -> None:
     assert (legs, motors) == (4, 3)
 
 
+@pytest.mark.heavy
 def test_it_works_beside_files_of_the_same_names_and_runs_no_script_again_in_a_worker(tmp_path: Path) -> None:
     for name in ("core", "app", "solver_jobs", "robot_description"):
         (tmp_path / f"{name}.py").write_text(f"mine = {name!r}\n")

@@ -134,6 +134,7 @@ def test_a_verdict_has_findings_and_margins_of_the_command() -> None:
     assert "Fit to send." in verdict._repr_html_()
 
 
+@pytest.mark.heavy
 def test_variations_say_which_share_walks() -> None:
     result = ff.simulate("fast-c-gait", variations=2)
     assert result.walks

@@ -38,6 +38,7 @@ def found(video: Path) -> VideoTrack:
     return result
 
 
+@pytest.mark.heavy
 def test_feet_are_found_within_half_a_millimetre(found: VideoTrack) -> None:
     assert found.frame_rate == pytest.approx(RATE)
     away = np.linalg.norm(found.track.feet - TRACK.feet, axis=2)

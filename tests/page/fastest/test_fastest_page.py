@@ -36,6 +36,7 @@ def price(dialog: Locator, group: str, value: str) -> float:
     return float((chip.text_content() or "").split()[0])
 
 
+@pytest.mark.heavy
 def test_the_price_of_each_choice_is_there_before_it_is_made(page: Page) -> None:
     dialog = open_dialog(page)
     early, usual = price(dialog, "Stop bound", "1.0 s"), price(dialog, "Stop bound", "1.5 s")
@@ -65,6 +66,7 @@ def test_a_gait_is_made_of_what_is_chosen_and_shown(page: Page) -> None:
     expect(page.get_by_role("spinbutton", name="Iterations")).to_have_value("2")
 
 
+@pytest.mark.heavy
 def test_a_search_shows_its_table_is_cancelled_and_found_again_in_jobs(page: Page) -> None:
     dialog = open_dialog(page)
     dialog.get_by_role("button", name="Search all foot orders").click()

@@ -217,6 +217,7 @@ def test_a_number_says_how_far_it_can_go_while_it_is_dragged(page: Page, studio:
     expect(page.get_by_role("region", name="Why the gait is infeasible")).to_be_hidden()
 
 
+@pytest.mark.heavy
 def test_a_margin_below_the_robots_own_is_amber_until_physics_has_spoken(page: Page) -> None:
     choose(page, "Walk 10 mm")
     design = page.get_by_role("tab", name=re.compile("^Design: plan found"))
@@ -229,6 +230,7 @@ def test_a_margin_below_the_robots_own_is_amber_until_physics_has_spoken(page: P
     expect(design).to_be_visible(timeout=30_000)
 
 
+@pytest.mark.heavy
 def test_each_way_out_says_what_physics_makes_of_it(page: Page) -> None:
     choose(page, "S-Gait 10 mm")
     ways = ask_too_much(page)
@@ -239,6 +241,7 @@ def test_each_way_out_says_what_physics_makes_of_it(page: Page) -> None:
     expect(ways).to_be_hidden()
 
 
+@pytest.mark.heavy
 def test_a_gait_that_tips_in_physics_is_offered_what_helps(page: Page) -> None:
     choose(page, "Walk 10 mm")
     margin = page.get_by_role("spinbutton", name="Stability margin")

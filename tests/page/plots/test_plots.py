@@ -197,6 +197,7 @@ def test_the_pointer_reads_the_values_of_all_feet_and_both_times(page: Page) -> 
     expect(card).to_be_hidden()
 
 
+@pytest.mark.heavy
 def test_what_passes_a_limit_is_drawn_in_the_bad_colour(page: Page, studio: StudioProcess) -> None:
     assert "bad" not in painted(page, "strokes")
     document: dict[str, Any] = studio.ask("GET", "/api/gaits/walk").content
@@ -309,6 +310,7 @@ def test_more_samples_than_pixels_are_thinned_and_keep_their_extremes(page: Page
     assert min(corners) == 0
 
 
+@pytest.mark.heavy
 def test_where_a_stroke_is_not_known_the_strip_is_marked(page: Page, studio: StudioProcess) -> None:
     document: dict[str, Any] = studio.ask("GET", "/api/gaits/walk").content
     far = {**document, "step": [0.12, 0.0, 0.0]}

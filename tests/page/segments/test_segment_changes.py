@@ -188,6 +188,7 @@ def test_a_segment_before_the_links_first_is_the_links(page: Page, studio: Studi
     expect(undo_label(page)).to_have_text("insert before link segment 1")
 
 
+@pytest.mark.heavy
 def test_segments_and_positions_of_ones_own(page: Page, studio: StudioProcess) -> None:
     gait = copy_of(studio, WALK, "Words")
     choose(page, "Words")

@@ -255,6 +255,7 @@ def test_gaits_that_cannot_be_parts_are_greyed_with_the_reason(page: Page, tour:
     expect(page.get_by_label("Gait to add").locator("option:checked")).to_be_enabled()
 
 
+@pytest.mark.heavy
 def test_repetitions_start_from_rest_and_follow_each_other_again(
     page: Page, studio: StudioProcess, tour: str
 ) -> None:

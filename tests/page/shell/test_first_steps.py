@@ -46,6 +46,7 @@ def set_step(page: Page, length: str) -> None:
     step.press("Enter")
 
 
+@pytest.mark.heavy
 def test_acts_tick_themselves_are_remembered_and_the_card_comes_back_from_help(page: Page) -> None:
     expect(count(page)).to_have_text("0 of 4 done")
     assert page.evaluate("document.activeElement === document.body"), "it takes no focus"
@@ -79,6 +80,7 @@ def test_acts_tick_themselves_are_remembered_and_the_card_comes_back_from_help(p
     expect(count(page)).to_have_text("2 of 4 done")
 
 
+@pytest.mark.heavy
 def test_a_remedy_is_found_by_way_of_a_drawn_gait(page: Page) -> None:
     open_by_help(page)
     remedy = act(page, "Make the step too long")
@@ -100,6 +102,7 @@ def test_a_remedy_is_found_by_way_of_a_drawn_gait(page: Page) -> None:
     expect(remedy).to_have_attribute("data-done", "")
 
 
+@pytest.mark.heavy
 def test_where_to_send_is_the_button_at_the_foot_of_the_step_that_is_open(page: Page) -> None:
     open_by_help(page)
     act(page, "Send the gait").get_by_role("button", name=re.compile("^Send the gait")).click()

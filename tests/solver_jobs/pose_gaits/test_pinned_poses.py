@@ -38,6 +38,7 @@ def pinned(free: PoseGait, along: float, sideways: float) -> PoseProblem:
     return replace(free.problem, pinned=(PinnedPose(POSE, here[0] + along, here[1] + sideways),))
 
 
+@pytest.mark.heavy
 def test_the_body_is_where_it_was_put_and_the_rest_goes_along(free: PoseGait) -> None:
     problem = pinned(free, -0.0005, -0.0004)
     result = solve_poses(problem, near=free)
@@ -56,6 +57,7 @@ def test_the_check_sees_a_pose_that_is_not_where_it_was_put(free: PoseGait) -> N
     assert f"pose {POSE}" in limits["pinned pose"].sentence
 
 
+@pytest.mark.heavy
 def test_a_place_that_no_gait_reaches_is_named(free: PoseGait) -> None:
     result = solve_poses(pinned(free, 0.0, 0.025), near=free)
     assert result.status is SolveStatus.INFEASIBLE

@@ -125,6 +125,7 @@ def test_a_margin_that_is_too_wide_is_explained_by_the_widest_that_works() -> No
     assert "The margin (--margin) is 25 mm" in result.explanation[0]
 
 
+@pytest.mark.heavy
 def test_arms_that_come_near_each_other_are_kept_apart(c_gait: PoseGait) -> None:
     asked = 0.003
     assert 0.001 < check_poses(c_gait).figures.arm_distance < asked

@@ -187,6 +187,7 @@ def test_the_order_of_swings_in_words(swings: list[tuple[int, int, int]], words:
     assert order_words(gait) == words
 
 
+@pytest.mark.heavy
 def test_swings_of_six_legs_that_stay_beside_each_other_are_called_groups() -> None:
     found = [remedy for number in range(30) for remedy in _remedies_of_six_legs(number)]
     grouped = [remedy for remedy in found if not is_one_by_one(remedy.gait)]

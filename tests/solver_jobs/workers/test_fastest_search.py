@@ -5,6 +5,8 @@ from __future__ import annotations
 from contextlib import closing
 from dataclasses import replace
 
+import pytest
+
 from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import load_robot
 from solver_jobs import FastestSearch, SearchStep, SolveStatus, fastest_of
@@ -13,6 +15,7 @@ SHORT = PoseProblem(load_robot("deltawalker"), (1, 2, 3, 4), 0.0, step=0.010)
 LONG, TOO_LONG = replace(SHORT, step=0.030), replace(SHORT, step=0.150)
 
 
+@pytest.mark.heavy
 def test_answers_stand_in_the_order_of_the_questions() -> None:
     steps: list[SearchStep] = []
     with closing(FastestSearch(processes=2)) as search:

@@ -81,6 +81,7 @@ def test_import_footfall_works_from_the_wheel_beside_files_of_the_same_names(
     assert done.stdout.split()[:2] == ["solved", "True"], done.stderr
 
 
+@pytest.mark.heavy
 def test_types_reach_users(installed: Path, tmp_path: Path) -> None:
     """Mypy reads the stubs of the wheel, as a user's own check does."""
     home = tmp_path / "fresh"

@@ -75,6 +75,7 @@ def test_a_process_of_the_tests_has_default_signals_and_surroundings() -> None:
     }
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("lanes", ["0", "1"])
 def test_the_start_of_the_tests_does_not_change_their_processes(lanes: str, tmp_path: Path) -> None:
     chosen = test_a_process_of_the_tests_has_default_signals_and_surroundings

@@ -201,6 +201,7 @@ def test_a_database_of_something_else_is_refused(tmp_path: Path) -> None:
         AtlasFile(path)
 
 
+@pytest.mark.heavy
 def test_a_full_disk_keeps_what_was_computed(tmp_path: Path) -> None:
     small = AtlasFile(tmp_path / "small.sqlite", SPACE)
     run_atlas(small, 4, HereEngine())

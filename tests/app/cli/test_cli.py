@@ -41,6 +41,7 @@ def test_the_way_from_gait_to_waypoints(capsys: pytest.CaptureFixture[str], tmp_
     assert merged["stop_seconds"] <= 1.0 + OVERRUN
 
 
+@pytest.mark.heavy
 def test_the_defaults_of_each_command_suit_the_next(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

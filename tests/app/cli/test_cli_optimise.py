@@ -99,6 +99,7 @@ def test_too_large_a_turn_is_proven_without_a_search(capsys: pytest.CaptureFixtu
     assert answer["explanation"][-1] == "This is proven: no motion of the model can do it."
 
 
+@pytest.mark.heavy
 def test_too_large_a_margin_over_two_iterations_is_explained_by_both_tiers(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

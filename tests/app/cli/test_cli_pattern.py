@@ -117,6 +117,7 @@ def test_an_impossible_transition_is_explained(capsys: pytest.CaptureFixture[str
     assert freed["command"] is None
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     "words",
     [

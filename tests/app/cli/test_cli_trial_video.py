@@ -28,6 +28,7 @@ def setup_file(folder: Path, **changes: object) -> str:
     return str(path)
 
 
+@pytest.mark.heavy
 def test_a_film_is_tracked_and_its_figures_are_printed(
     capsys: pytest.CaptureFixture[str], film: Path, tmp_path: Path
 ) -> None:

@@ -52,6 +52,7 @@ def run_state(data: Path) -> str:
     return str(found[0])
 
 
+@pytest.mark.heavy
 def test_a_terminal_that_is_closed_in_a_send_stops_the_robot(way: Path, robot: EmulatedRobot) -> None:
     with in_terminal(*send_words(way, robot)) as terminal:
         wait_for(lambda: len(robot.firmware.messages) > 4, "the run has begun")

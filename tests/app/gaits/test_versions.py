@@ -187,6 +187,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
         yield running
 
 
+@pytest.mark.heavy
 def test_versions_over_http(studio: StudioProcess) -> None:
     here = "/api/gaits/amble/versions"
     assert studio.ask("GET", here).content == {"versions": []}

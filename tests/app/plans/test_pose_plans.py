@@ -45,6 +45,7 @@ def solved() -> Gait:
     return with_poses(document, result.gait)
 
 
+@pytest.mark.heavy
 def test_found_poses_are_the_plan_and_pass_every_rule(solved: Gait) -> None:
     plan = make_plan(solved, None, never_solve)
     assert plan.source is PlanSource.POSES

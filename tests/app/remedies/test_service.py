@@ -80,6 +80,7 @@ def test_overlaps_get_the_finished_drawing_too(service: RemedyService) -> None:
     assert last["remedies"][0]["physics"]["walks"]
 
 
+@pytest.mark.heavy
 def test_a_gait_that_tips_gets_remedies_though_it_has_a_motion(service: RemedyService) -> None:
     tipping = WALK.with_options(margin=0.0)
     states = states_of(service, tipping, tips=True)

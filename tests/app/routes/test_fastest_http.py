@@ -41,6 +41,7 @@ def test_prices_that_come_with_the_program_are_there_at_once(studio: StudioProce
     assert all(one["price"]["pace"] > 0.0018 for one in orders)
 
 
+@pytest.mark.heavy
 def test_a_price_that_is_not_known_is_looked_for(studio: StudioProcess) -> None:
     asked = {**ASKED, "step": 0.0123}
     answer = lines(studio, asked)
@@ -53,6 +54,7 @@ def test_a_price_that_is_not_known_is_looked_for(studio: StudioProcess) -> None:
     assert [options[one["number"]]["value"] for one in found] == [one["value"] for one in found]
 
 
+@pytest.mark.heavy
 def test_a_gait_is_made_and_solves_itself(studio: StudioProcess) -> None:
     made = studio.ask("POST", "/api/fastest/gaits", {**ASKED, "name": "Mine", "cycles": 1, "step": 0.02})
     assert made.status == 201, made.content

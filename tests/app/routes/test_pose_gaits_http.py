@@ -46,6 +46,7 @@ def solved(studio: StudioProcess, gait: str) -> dict[str, Any]:
     return view(studio, gait)
 
 
+@pytest.mark.heavy
 def test_a_new_one_is_solved_by_itself_and_keeps_its_poses(studio: StudioProcess, gait: str) -> None:
     found = solved(studio, gait)
     assert found["source"] == "poses"
@@ -57,6 +58,7 @@ def test_a_new_one_is_solved_by_itself_and_keeps_its_poses(studio: StudioProcess
     assert found["undo"] is None
 
 
+@pytest.mark.heavy
 def test_an_edit_is_adapted_then_solved_and_undo_needs_no_search(studio: StudioProcess, gait: str) -> None:
     before = solved(studio, gait)
     document = before["document"]

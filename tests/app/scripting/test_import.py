@@ -106,6 +106,7 @@ def examples() -> list[Any]:
     return [pytest.param(one, id=one.name) for one in found]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("example", examples())
 def test_the_examples_of_docstrings_run(example: doctest.DocTest) -> None:
     failed, _ = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(example, clear_globs=False)

@@ -91,6 +91,7 @@ def test_a_foreign_page_is_refused(studio: StudioProcess) -> None:
     assert studio.ask("GET", "/api/health", headers={"Host": "evil.example"}).status == 403
 
 
+@pytest.mark.heavy
 def test_a_gait_goes_all_the_way_and_the_robot_parses_exactly_what_was_approved(
     studio: StudioProcess, robot: EmulatedRobot
 ) -> None:
@@ -144,6 +145,7 @@ def test_stop_waits_for_no_body(studio: StudioProcess) -> None:
         assert line.recv(64).startswith(b"HTTP/1.1 200")
 
 
+@pytest.mark.heavy
 def test_a_job_is_cancelled_and_the_next_one_runs(studio: StudioProcess) -> None:
     document = studio.ask("GET", "/api/gaits/amble").content
     document["step"] = [0.0177, 0.0177, 0.0]

@@ -50,6 +50,7 @@ def test_the_price_of_each_choice_is_there_before_it_is_made(page: Page) -> None
     expect(dialog.get_by_role("radio", name=re.compile("1.0 s"))).to_be_focused()
 
 
+@pytest.mark.heavy
 def test_a_gait_is_made_of_what_is_chosen_and_shown(page: Page) -> None:
     dialog = open_dialog(page)
     dialog.get_by_role("radio", name=re.compile("^Amble, at 45°")).press("Space")

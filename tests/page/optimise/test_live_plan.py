@@ -79,6 +79,7 @@ def test_the_plan_follows_a_drag_on_the_timeline_before_it_ends(page: Page, stud
     assert studio.document("walk") == asked
 
 
+@pytest.mark.heavy
 def test_a_typed_number_is_answered_while_it_is_typed_and_is_one_edit(
     page: Page, studio: StudioProcess
 ) -> None:
@@ -112,6 +113,7 @@ def test_a_number_out_of_range_is_refused_with_a_sentence_and_nothing_changes(
     assert studio.document("amble") == before
 
 
+@pytest.mark.heavy
 def test_an_infeasible_step_is_explained_where_it_happens_and_a_remedy_cures_it(page: Page) -> None:
     choose(page, "S-Gait 10 mm")
     step = page.get_by_role("spinbutton", name="Step", exact=True)
@@ -137,6 +139,7 @@ def test_an_infeasible_step_is_explained_where_it_happens_and_a_remedy_cures_it(
     expect(page.get_by_role("button", name=re.compile("^Undo"))).to_contain_text(label, ignore_case=True)
 
 
+@pytest.mark.heavy
 def test_pointing_at_a_way_out_shows_where_it_leads(page: Page, studio: StudioProcess) -> None:
     choose(page, "S-Gait 10 mm")
     before = studio.document("s-gait")
@@ -193,6 +196,7 @@ def test_a_way_out_keeps_what_was_edited_since_although_the_plan_is_the_same(
     assert studio.document("c-gait")["options"]["motor_speed"] == 0.06
 
 
+@pytest.mark.heavy
 def test_a_number_says_how_far_it_can_go_while_it_is_dragged(page: Page, studio: StudioProcess) -> None:
     choose(page, "S-Gait 10 mm")
     before = studio.document("s-gait")["step"]
@@ -327,6 +331,7 @@ def test_arrow_keys_move_the_goal_by_half_a_millimetre_and_turn_it(page: Page, s
     expect(page.get_by_role("spinbutton", name="Turn")).to_have_value("1")
 
 
+@pytest.mark.heavy
 def test_iterations_are_looked_at_and_left_again(page: Page) -> None:
     choose(page, "Amble 10 mm")
     page.get_by_role("button", name="Optimise", exact=True).click()

@@ -264,6 +264,7 @@ def test_a_plot_is_at_least_72_pixels_high_with_ticks_and_named_limits(page: Pag
     expect(strip(page, "margin")).to_contain_text("asked 6")
 
 
+@pytest.mark.heavy
 def test_a_plot_is_saved_as_picture_and_as_values_in_one_click(page: Page, tmp_path: Path) -> None:
     saved = {}
     for form in ("SVG", "PNG", "CSV"):

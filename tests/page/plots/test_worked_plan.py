@@ -82,6 +82,7 @@ def test_the_last_plan_that_worked_is_drawn_in_grey_until_one_works_again(page: 
     assert page.evaluate(DRAWN, [state for state, _ in states]) == [seen for _, seen in states]
 
 
+@pytest.mark.heavy
 def test_plots_keep_the_last_plan_that_worked_without_figures(page: Page) -> None:
     choose(page, "Amble 10 mm")
     page.get_by_role("gridcell", name="foot 2, sample 45: stance", exact=True).click()

@@ -31,6 +31,7 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
         yield opened
 
 
+@pytest.mark.heavy
 def test_copies_go_to_other_cells_and_come_from_a_spreadsheet(page: Page, studio: StudioProcess) -> None:
     gait = copy_of(studio, WALK, "Clipboard")
     choose(page, "Clipboard")

@@ -270,6 +270,7 @@ def test_repetitions_start_from_rest_and_follow_each_other_again(
     assert findings(page) == []
 
 
+@pytest.mark.heavy
 def test_other_gaits_have_their_segment_table_again(page: Page, tour: str) -> None:
     expect(page.get_by_role("tab", name="Sequence")).to_be_visible()
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Amble 10 mm(?!,)")).click()

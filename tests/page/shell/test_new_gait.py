@@ -78,6 +78,7 @@ def test_a_new_gait_is_made_by_keyboard_alone_for_a_robot_with_six_legs(
     assert (made["orientation"], made["step"], len(made["timeline"]["feet"])) == ("FBS", [0.01, 0.0, 0.0], 6)
 
 
+@pytest.mark.heavy
 def test_what_is_wrong_stands_at_its_field_and_nothing_is_made(page: Page, studio: StudioProcess) -> None:
     before = studio.ask("GET", "/api/gaits").content
     dialog = open_dialog(page)
@@ -202,6 +203,7 @@ def test_a_gait_of_the_program_says_why_it_cannot_be_deleted(page: Page) -> None
     expect(button).to_be_focused()
 
 
+@pytest.mark.heavy
 def test_a_deleted_gait_is_brought_back_after_a_reload(page: Page, studio: StudioProcess) -> None:
     for gait in studio.ask("GET", "/api/gaits/deleted").content["gaits"]:
         studio.ask("POST", f"/api/gaits/{gait['id']}/restore")

@@ -208,6 +208,7 @@ def test_without_a_selection_the_whole_timeline_is_meant(timeline: TimelinePage)
     assert timeline.document(gait)["direction"] == 2
 
 
+@pytest.mark.heavy
 def test_the_menu_keeps_its_place_under_the_pointer(timeline: TimelinePage) -> None:
     timeline.open("Menu")
     first = timeline.item("Copy")
@@ -309,6 +310,7 @@ def test_a_copy_that_ends_with_the_timeline_is_cut_and_says_so(timeline: Timelin
     timeline.said("so a copy does not fit")
 
 
+@pytest.mark.heavy
 def test_cut_duplicate_and_delete_have_their_keys(timeline: TimelinePage) -> None:
     gait = timeline.open("Cut keys")
     timeline.select((1, 5), (1, 8))

@@ -42,6 +42,7 @@ def place(timeline: TimelinePage, selector: str) -> tuple[float, float]:
     return box["x"], box["x"] + box["width"]
 
 
+@pytest.mark.heavy
 def test_a_drag_with_shift_locks_a_rectangle_and_from_a_locked_cell_unlocks(timeline: TimelinePage) -> None:
     gait = timeline.open("Shift locks")
     timeline.drag((1, 2), (2, 4), "Shift")

@@ -215,6 +215,7 @@ def test_one_foot_carries_nothing_but_itself() -> None:
     assert any(lack.family == "body_torque" and lack.feet == (0, 0) for lack in result.lacks)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("gait", STEPPERS)
 def test_every_answer_up_to_the_edge_is_a_motion_or_a_sentence(gait: str) -> None:
     low, high = 0.010, 0.035

@@ -87,6 +87,7 @@ def test_a_process_that_dies_in_the_middle_is_replaced(solver: PatternSolver) ->
     assert search.result(PATIENCE).status is PatternStatus.FEASIBLE
 
 
+@pytest.mark.heavy
 def test_a_time_limit_ends_a_search(solver: PatternSolver) -> None:
     result = solver.submit(hard_problem(), seconds=2.0).result(PATIENCE)
     assert result.status is PatternStatus.FEASIBLE

@@ -47,6 +47,7 @@ def test_feet_that_are_sent_into_each_other_stop_at_their_shoes(rig: Rig) -> Non
     assert np.abs(shod.motor_forces[-1, :2]).max() > 1.5 * np.abs(bare.motor_forces[-1, :2]).max()
 
 
+@pytest.mark.heavy
 def test_shoes_that_keep_apart_feel_nothing_of_each_other() -> None:
     problem = walk("walk", step=0.010)
     shod, bare = (simulate(replace(problem, model=model)) for model in (MODEL, BARE))

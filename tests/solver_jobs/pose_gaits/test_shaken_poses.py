@@ -16,6 +16,7 @@ from solver_jobs.pose_gaits.solve import solve_poses
 OFF = 1.0 + 1e-12
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("step", "cycles"),
     [

@@ -37,6 +37,7 @@ def c_gait() -> PoseGait:
     return result.gait
 
 
+@pytest.mark.heavy
 def test_the_c_gait_makes_three_millimetres_a_second_in_mid_walk(c_gait: PoseGait) -> None:
     check = check_poses(c_gait)
     assert check.confirmed

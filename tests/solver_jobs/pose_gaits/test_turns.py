@@ -98,6 +98,7 @@ def test_the_check_holds_a_gait_to_what_was_asked(
     assert limit in {finding.limit for finding in check_poses(other).findings}
 
 
+@pytest.mark.heavy
 def test_a_walk_from_rest_begins_with_the_heading_0() -> None:
     walk = solved(step=0.01, cycles=1, sway=float(np.radians(5.0)))
     turned = replace(walk, headings=walk.headings + 0.02)

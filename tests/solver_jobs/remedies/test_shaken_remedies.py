@@ -10,6 +10,7 @@ from solver_jobs.remedies.search import find_remedies
 from tests.support.shaken import shaken
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("family", Family)
 @pytest.mark.parametrize("number", range(3))
 def test_rounding_chooses_no_remedy(family: Family, number: int) -> None:

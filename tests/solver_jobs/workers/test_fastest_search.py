@@ -32,6 +32,7 @@ def test_answers_stand_in_the_order_of_the_questions() -> None:
     assert steps[-1].fastest.problem is LONG
 
 
+@pytest.mark.heavy
 def test_an_ended_search_answers_with_what_is_known() -> None:
     with closing(FastestSearch(processes=1)) as search:
         free = replace(SHORT, step=None)

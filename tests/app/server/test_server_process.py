@@ -91,7 +91,6 @@ def test_a_foreign_page_is_refused(studio: StudioProcess) -> None:
     assert studio.ask("GET", "/api/health", headers={"Host": "evil.example"}).status == 403
 
 
-@pytest.mark.heavy
 def test_a_gait_goes_all_the_way_and_the_robot_parses_exactly_what_was_approved(
     studio: StudioProcess, robot: EmulatedRobot
 ) -> None:

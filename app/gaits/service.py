@@ -226,7 +226,13 @@ class GaitService:
             self.on_plan(asked, self.planned(asked.open_gait.gait))
 
     def edit(
-        self, gait_id: str, gait: Gait, label: str, revision: int | None, author: Author = _SCRIPT
+        self,
+        gait_id: str,
+        gait: Gait,
+        label: str,
+        revision: int | None,
+        author: Author = _SCRIPT,
+        edit: str = "",
     ) -> OpenGait:
         """Makes a changed document the present one, in memory and in the database.
 
@@ -238,6 +244,7 @@ class GaitService:
             label: what the edit is called.
             revision: that the edit was made on; None for any.
             author: whose edit it is.
+            edit: the number that its page gave it. One that was made already is not made again.
 
         Raises:
             StateError: somebody else changed it since the given revision.
@@ -247,6 +254,8 @@ class GaitService:
             self.recover(gait_id, author)
             revision = None  # nobody can have seen the revision that was there
         open_gait = self.open_gait(gait_id)
+        if open_gait.history.has(edit):
+            return open_gait
         if revision is not None and revision != open_gait.revision:
             raise StateError(
                 f"“{open_gait.gait.name}” was changed elsewhere; look at its new state and edit again.",
@@ -255,15 +264,21 @@ class GaitService:
         changed, notice = normalise(open_gait.gait, gait)
         if changed == open_gait.gait:
             return open_gait
-        return self._edited(open_gait, changed, label or "Edit", author, notice)
+        return self._edited(open_gait, changed, label or "Edit", author, notice, edit)
 
     def _edited(
-        self, open_gait: OpenGait, gait: Gait, label: str, author: Author, notice: str | None = None
+        self,
+        open_gait: OpenGait,
+        gait: Gait,
+        label: str,
+        author: Author,
+        notice: str | None = None,
+        edit: str = "",
     ) -> OpenGait:
         gait = self._results.with_known_poses(gait)
         require_line(gait)
         version = self.versions.due(open_gait)
-        history = open_gait.history.edited(gait_text(gait), label, author, self._others(author))
+        history = open_gait.history.edited(gait_text(gait), label, author, self._others(author), edit)
         return self._put(open_gait.changed(history.pruned(), gait, notice), version)
 
     def _others(self, author: Author) -> frozenset[str]:

@@ -147,6 +147,7 @@ def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset
         "document": gait_content(gait),
         "roles": list(gait.roles),
         "mirror": mirror_of(gait, plan.model),
+        "edits": list(open_gait.history.newest_edits),
         "notice": open_gait.notice,
         "conversion_refusal": conversion_refusal(gait, plan.model),
         "changed": open_gait.before is not None,

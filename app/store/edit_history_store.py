@@ -91,9 +91,11 @@ class EditHistoryStore:
     def entries(self, gait: str) -> dict[int, LogEntry]:
         """Every document of a gait's history, by position."""
         rows = self._database.rows(
-            "SELECT position, label, document, page, name FROM history WHERE gait=?", gait
+            "SELECT position, label, document, page, name, edit FROM history WHERE gait=?", gait
         )
-        return {at: LogEntry(label, text, Author(page, name)) for at, label, text, page, name in rows}
+        return {
+            at: LogEntry(label, text, Author(page, name), edit) for at, label, text, page, name, edit in rows
+        }
 
     def revision(self, gait: str) -> int:
         """Revision of a gait's present document; 0 where it was never edited."""
@@ -160,9 +162,9 @@ class EditHistoryStore:
                 connection.execute("DELETE FROM history WHERE gait=?", (gait,))
             connection.executemany("DELETE FROM history WHERE gait=? AND position=?", gone)
             connection.executemany(
-                "INSERT OR REPLACE INTO history(gait, position, label, document, page, name) "
-                "VALUES(?,?,?,?,?,?)",
-                [(gait, at, e.label, e.document, e.author.page, e.author.name) for at, e in added],
+                "INSERT OR REPLACE INTO history(gait, position, label, document, page, name, edit) "
+                "VALUES(?,?,?,?,?,?,?)",
+                [(gait, at, e.label, e.document, e.author.page, e.author.name, e.edit) for at, e in added],
             )
             connection.execute(
                 "INSERT OR REPLACE INTO open_gait"

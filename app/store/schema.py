@@ -185,6 +185,11 @@ def _add_reasons(connection: sqlite3.Connection) -> None:
     connection.execute("ALTER TABLE open_gait ADD COLUMN revoked TEXT")
 
 
+def _add_edit_numbers(connection: sqlite3.Connection) -> None:
+    """The number that its page gave an edit."""
+    connection.execute("ALTER TABLE history ADD COLUMN edit TEXT NOT NULL DEFAULT ''")
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
@@ -196,6 +201,7 @@ _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_times,
     _add_turn_rates,
     _add_reasons,
+    _add_edit_numbers,
 )
 
 NEWEST = len(_MIGRATIONS)

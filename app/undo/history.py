@@ -25,6 +25,9 @@ MOST_ENTRIES = 1000
 MOST_CHARACTERS, LEAST_STEPS = 100_000_000, 100
 """A log of more characters keeps what this many edits need; a recorded motion has up to 2 million."""
 
+NEWEST_EDITS = 20
+"""Edits whose numbers pages are told with a gait, so that none is shown twice."""
+
 SCRIPT = "api"
 """The page of whoever names none: scripts, and the program itself."""
 
@@ -39,11 +42,15 @@ class Author:
 
 @dataclass(frozen=True)
 class LogEntry:
-    """The document after a change, as JSON text, what the change was called, and whose it was."""
+    """The document after a change, as JSON text, what the change was called, and whose it was.
+
+    `edit` is the number that its page gave it, and sends again where it had no answer; empty where none did.
+    """
 
     label: str
     document: str
     author: Author = field(default_factory=Author)
+    edit: str = ""
 
     @cached_property
     def content(self) -> Any:
@@ -124,7 +131,19 @@ class History:
         """Pages that something in the log is of."""
         return frozenset(entry.author.page for entry in self.entries.values())
 
-    def edited(self, document: str, label: str, author: Author, others: frozenset[str]) -> History:
+    @property
+    def newest_edits(self) -> tuple[str, ...]:
+        """Numbers that pages gave to the newest edits."""
+        newest = (self.entries.get(at) for at in range(self.last, self.last - NEWEST_EDITS, -1))
+        return tuple(entry.edit for entry in newest if entry is not None and entry.edit)
+
+    def has(self, edit: str) -> bool:
+        """Whether an edit of this number is in the log; never of one without a number."""
+        return bool(edit) and any(entry.edit == edit for entry in self.entries.values())
+
+    def edited(
+        self, document: str, label: str, author: Author, others: frozenset[str], edit: str = ""
+    ) -> History:
         """The log with one more edit; what its author could do again is gone.
 
         Args:
@@ -132,9 +151,10 @@ class History:
             label: what the edit is called.
             author: whose it is.
             others: the other pages that are connected.
+            edit: the number that its page gave it.
         """
         undone = tuple(action for action in self.undone if action.page in others)
-        added = self._added(LogEntry(label, document, author))
+        added = self._added(LogEntry(label, document, author, edit))
         done = (*self.done, Action(added.last, added.last, author.page))
         return replace(added, done=done[-MOST_STEPS:], undone=undone)
 

@@ -136,14 +136,15 @@ async def edit_gait(
     author: TheAuthor,
     label: Annotated[str, Query(max_length=120, pattern=r"^[^\x00]*$")] = "Edit",
     revision: Revision | None = None,
+    edit: Annotated[str, Query(max_length=64, pattern=r"^[0-9A-Za-z.-]*$")] = "",
 ) -> Json:
-    """Changes the document, as one undo step."""
+    """Changes the document, as one undo step; a page that had no answer sends the same `edit` again."""
     body = await _document(request)
 
-    def edit() -> OpenGait:
-        return studio.gaits.edit(gait_id, parse_gait(body, "body"), label, revision, author)
+    def change() -> OpenGait:
+        return studio.gaits.edit(gait_id, parse_gait(body, "body"), label, revision, author, edit)
 
-    return await changed(studio, edit)
+    return await changed(studio, change)
 
 
 @router.delete("/{gait_id}")

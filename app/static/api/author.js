@@ -26,6 +26,7 @@ function keep(id) {
 const load = random();
 let page = recalled() ?? load;
 let name = "";
+let edits = 0;
 let renamed = () => {};
 keep(page);
 
@@ -38,6 +39,9 @@ channel.addEventListener("message", ({ data }) => {
   renamed();
 });
 channel.postMessage({ asks: page, load });
+
+/** A number for an edit that no other one has, also after a reload. */
+export const editNumber = () => `${load}.${edits += 1}`;
 
 /** This tab's id. */
 export const pageId = () => page;

@@ -84,8 +84,8 @@ const gait = (id) => `/api/gaits/${encodeURIComponent(id)}`;
 export const api = {
   view: (id) => request("GET", `${gait(id)}/view`),
   document: (id) => request("GET", gait(id)),
-  put: (id, document, label, revision) =>
-    request("PUT", `${gait(id)}?label=${encodeURIComponent(label)}&revision=${revision}`, document),
+  put: (id, document, { label, number }, revision) =>
+    request("PUT", `${gait(id)}?label=${encodeURIComponent(label)}&revision=${revision}&edit=${number}`, document),
   redraw: (id, body) => request("POST", `${gait(id)}/redraw`, body),
   history: (id, verb) => request("POST", `${gait(id)}/${verb}`),
   copy: (id, name) => request("POST", `/api/gaits?copy_of=${encodeURIComponent(id)}&name=${encodeURIComponent(name)}`),

@@ -2,11 +2,13 @@
  * Edits of the gait: applied on screen at once, sent one after the other, each a named undo entry on the server.
  *
  * An edit is a function from document to document, so that it can be put on top of what another tab did meanwhile.
+ * It has a number, by which a state of the studio says that it is in it: one that is shown or sent again is made once.
  * A drawing that the server refuses stays on screen, marked, and goes along with the next edit. Where the server does not
  * answer, edits wait until it does.
  * Every act is of the gait that was shown when it was done: it reaches that one, also where another is shown by then.
  */
 
+import { editNumber } from "../api/author.js";
 import { CONFLICT, api } from "../api/gaits.js";
 import { undoSegmentDraft } from "./segment_draft.js";
 import { whyNotDrawn } from "../document/drawable.js";
@@ -54,7 +56,7 @@ export function createEdits(store) {
     const view = shown?.id === gait ? shown : await api.view(gait);
     const document = batch.reduce((result, edit) => edit.apply(result), view.document);
     try {
-      return await api.put(gait, document, batch.at(-1).label, view.revision);
+      return await api.put(gait, document, batch.at(-1), view.revision);
     } catch (error) {
       if (error.status !== CONFLICT || error.where !== "revision" || tries === MOST_TRIES) throw error;
       if (isShown(gait)) acceptView(store, await api.view(gait));
@@ -94,10 +96,13 @@ export function createEdits(store) {
     store.set({ pending, refused: sentence });
   }
 
-  /** What is sent next: edits of a gait that was left come first, all of one gait at once. */
+  /**
+   * What is sent next: edits of a gait that was left come first, and refused drawings go along with the next edit.
+   * The newest edit's number stands for all of them, so that the same ones are sent again where no answer came.
+   */
   function nextBatch() {
     const { pending, left } = store.state;
-    if (left.length) return left.filter(({ gait }) => gait === left[0].gait);
+    if (left.length) return left.slice(0, 1);
     return pending.slice(0, pending.findIndex((edit) => !edit.refused) + 1);
   }
 
@@ -133,7 +138,7 @@ export function createEdits(store) {
   /** `gait` is the one that the edit is of, where something was waited for since it was the shown one. */
   function edit(apply, label, { drawing = false, gait = store.state.view?.id } = {}) {
     if (!gait) return Promise.resolve();
-    const one = { gait, apply, label, drawing, refused: false };
+    const one = { number: editNumber(), gait, apply, label, drawing, refused: false };
     if (!isShown(gait)) store.set({ left: [...store.state.left, one] });
     else if (drawing && whyNotDrawn(store.state.view?.document)) {
       toast(whyNotDrawn(store.state.view.document));

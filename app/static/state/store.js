@@ -139,13 +139,19 @@ export function checkGone(view, { revision }) {
     : "the plan was computed again after the check";
 }
 
+/** Edits that a view does not have yet; those before one that it has went along with that. */
+function stillPending(pending, { edits }) {
+  const had = pending.findLastIndex(({ number }) => edits.includes(number)) + 1;
+  return had ? pending.slice(had) : pending;
+}
+
 /** Takes over a view unless it is of another gait or older than what is shown. */
 export function acceptView(store, view) {
-  const { selected, view: current, checked } = store.state;
+  const { selected, view: current, checked, pending } = store.state;
   if (view.id !== selected) return;
   if (current && current.id === view.id && view.stamp < current.stamp) return;
   const seen = view.verdict || view.approval ? { word: view.approval ? "approved" : (checked[view.id]?.word ?? "checked"), revision: view.revision } : checked[view.id];
-  store.set({ view, checked: seen ? { ...checked, [view.id]: seen } : checked });
+  store.set({ view, pending: stillPending(pending, view), checked: seen ? { ...checked, [view.id]: seen } : checked });
 }
 
 /** Takes over a state of the robot unless it is older than what is shown: an answer may come after a later event. */

@@ -75,7 +75,8 @@ def test_times_of_an_earlier_database_are_found_anew(tmp_path: Path) -> None:
         connection.execute("ALTER TABLE times DROP COLUMN turn_rate")
         connection.execute("INSERT INTO times VALUES('mine', 'sent', 1.0, 2.0, 0.001)")
         connection.execute("ALTER TABLE open_gait DROP COLUMN revoked")
-        connection.execute(f"PRAGMA user_version = {NEWEST - 2}")
+        connection.execute("ALTER TABLE history DROP COLUMN edit")
+        connection.execute(f"PRAGMA user_version = {NEWEST - 3}")
     connection.close()
     assert read_times(tmp_path) == {}
     database = Database(path)

@@ -11,7 +11,7 @@ from playwright.sync_api import Browser, Locator, Page, Request, expect
 
 from tests.support.page.axe import findings
 from tests.support.page.drawers import gait_act
-from tests.support.page.late_answers import LateList
+from tests.support.page.late_answers import LateEvents
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
@@ -155,7 +155,7 @@ def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
     browser: Browser, studio: StudioProcess
 ) -> None:
     with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as other:
-        late = LateList(other)
+        late = LateEvents(other, "gaits")
         other.goto(studio.url)
         choose_gait(other, "Walk 10 mm")
         other.get_by_role("tab", name="Pattern search").click()

@@ -8,10 +8,10 @@ from typing import Any
 from urllib.parse import quote
 
 import pytest
-from playwright.sync_api import Browser, Dialog, Locator, Page, expect
+from playwright.sync_api import Browser, Dialog, Locator, Page, Route, expect
 
 from tests.support.page.drawers import gait_act
-from tests.support.page.late_answers import LateAnswers, LateList, LateRequests
+from tests.support.page.late_answers import LateAnswers, LateEvents, LateRequests
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
@@ -167,7 +167,7 @@ def test_old_approvals_do_not_take_the_place_of_new_ones(page: Page, studio: Stu
 def test_a_gait_that_is_not_listed_yet_is_copied_and_deleted(browser: Browser, studio: StudioProcess) -> None:
     made(studio, "Fresh")
     with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as page:
-        late = LateList(page)
+        late = LateEvents(page, "gaits")
         page.goto(studio.url)
         choose(page, "Fresh")
         name = page.get_by_label("Gait name")
@@ -226,6 +226,65 @@ def test_edits_wait_while_the_studio_does_not_answer_and_undo_takes_back_the_las
     expect(page.locator("#saved-state")).to_have_text("Not saved to a file")
     options = studio.document(gait)["options"]
     assert (options["margin"], options["clearance"]) == (0.001, 0.004)
+
+
+def parts(page: Page) -> Locator:
+    return page.get_by_role("grid", name="Parts of the sequence").get_by_role("row")
+
+
+def sequence(page: Page, studio: StudioProcess, name: str) -> str:
+    """A shown sequence of three gaits; gives its id."""
+    chained = [{"gait": source, "times": 1} for source in ("walk", "rotate", "s-gait")]
+    gait: str = studio.ask("POST", "/api/sequences", {"name": name, "parts": chained}).content["id"]
+    choose(page, name)
+    expect(parts(page)).to_have_count(3)
+    return gait
+
+
+def sources(studio: StudioProcess, gait: str) -> list[str]:
+    return [part["source"] for part in studio.document(gait)["sequence"]]
+
+
+def test_an_edit_whose_answer_comes_after_its_event_is_shown_once(page: Page, studio: StudioProcess) -> None:
+    gait = sequence(page, studio, "Taken apart")
+    late = LateAnswers(page, "PUT", f"/api/gaits/{gait}")
+    parts(page).nth(1).get_by_role("button", name="Take out").click()
+    wait_for(lambda: late.count == 1, "the studio has the edit")
+    expect(page.locator("#saved-state")).to_have_text("Not saved to a file")
+    expect(parts(page)).to_have_count(2)
+    parts(page).nth(0).get_by_role("button", name="Take out").click()
+    expect(parts(page)).to_have_count(1)
+    late.let_go()
+    wait_for(lambda: sources(studio, gait) == ["s-gait"], "both parts are out")
+    expect(parts(page)).to_have_count(1)
+
+
+@pytest.mark.parametrize("heard", ["by its event", "not at all"])
+def test_an_edit_whose_answer_is_lost_is_made_once(
+    browser: Browser, studio: StudioProcess, heard: str
+) -> None:
+    lost: list[str] = []
+
+    def lose(route: Route) -> None:
+        if route.request.method != "PUT" or lost:
+            route.fallback()
+            return
+        lost.append(route.request.url)
+        route.fetch()
+        route.abort()
+
+    with opened_page(browser, "about:blank", 1280, 800) as other:
+        if heard == "not at all":
+            LateEvents(other, "gait")
+        other.goto(studio.url)
+        gait = sequence(other, studio, f"Heard of {heard}")
+        other.route(re.compile(f"/api/gaits/{gait}"), lose)
+        parts(other).nth(0).get_by_role("button", name="Take out").click()
+        parts(other).nth(1).get_by_role("button", name="Take out").click()
+        expect(other.locator("#saved-state")).to_have_text("Not saved to a file")
+        expect(parts(other)).to_have_count(1)
+    assert lost
+    assert sources(studio, gait) == ["rotate"]
 
 
 def test_a_copy_has_what_was_done_before(page: Page, studio: StudioProcess) -> None:

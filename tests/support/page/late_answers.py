@@ -70,11 +70,17 @@ class LateAnswers(LateRequests):
         return partial(route.fulfill, response=route.fetch())
 
 
-class LateList(Late):
-    """The list of gaits comes late, but for the greeting's; to be made before the page is opened."""
+class LateEvents(Late):
+    """The studio's events of a kind come late; to be made before the page is opened.
 
-    def __init__(self, page: Page) -> None:
+    Args:
+        page: whose events.
+        kind: their type.
+    """
+
+    def __init__(self, page: Page, kind: str) -> None:
         super().__init__(page)
+        self._kind = kind
         self._holds = True
         page.route_web_socket("**/api/events*", self._connect)
 
@@ -87,7 +93,7 @@ class LateList(Late):
         server = socket.connect_to_server()
 
         def take(message: str | bytes) -> None:
-            if self._holds and json.loads(message)["type"] == "gaits":
+            if self._holds and json.loads(message)["type"] == self._kind:
                 self._held.append(partial(socket.send, message))
             else:
                 socket.send(message)

@@ -26,10 +26,17 @@ mountDrawers(store);
 mountGaits(store);
 listen(store, () => selectAfterHello(store));
 
-const late = new Promise((resume) => { setTimeout(resume, LONGEST_LIST_MS); });
-Promise.race([listEarly(store), late]).then(() => {
-  document.head.append(byId("later-modules").content);
-  return import("./editor.js");
-}).then(({ start }) => start(store), (error) => {
-  report(new Error(`Part of the page could not be loaded: ${error.message}. Reload the page.`));
+const late = new Promise((resume) => {
+  setTimeout(resume, LONGEST_LIST_MS);
 });
+Promise.race([listEarly(store), late])
+  .then(() => {
+    document.head.append(byId("later-modules").content);
+    return import("./editor.js");
+  })
+  .then(
+    ({ start }) => start(store),
+    (error) => {
+      report(new Error(`Part of the page could not be loaded: ${error.message}. Reload the page.`));
+    },
+  );

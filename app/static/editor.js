@@ -65,8 +65,14 @@ function mountEditor(store, edits, playback) {
 /** Builds the other panels once what is seen first has been painted; what they do on Escape comes into what this gives back. */
 function panelsAfterPaint(page) {
   const escapes = {};
-  const paintedOrHidden = Promise.race([painted(), new Promise((resume) => { setTimeout(resume, LONGEST_PAINT_MS); })]);
-  Promise.all([import("./panels.js"), paintedOrHidden]).then(([{ mountPanels }]) => Object.assign(escapes, mountPanels(page)))
+  const paintedOrHidden = Promise.race([
+    painted(),
+    new Promise((resume) => {
+      setTimeout(resume, LONGEST_PAINT_MS);
+    }),
+  ]);
+  Promise.all([import("./panels.js"), paintedOrHidden])
+    .then(([{ mountPanels }]) => Object.assign(escapes, mountPanels(page)))
     .catch(({ message }) => {
       report(new Error(`Part of the page could not be built: ${message}. Reload the page.`));
     });
@@ -77,11 +83,16 @@ function panelsAfterPaint(page) {
 export function start(store) {
   const playback = new Playback();
   const edits = createEdits(store);
-  window.addEventListener("beforeunload", (event) => { if (edits.areUnsent()) event.preventDefault(); });
+  window.addEventListener("beforeunload", (event) => {
+    if (edits.areUnsent()) event.preventDefault();
+  });
   recallOperator(store);
   mountDecimalComma();
   mountCopiedTables();
-  store.watch(({ operator }) => [operator], ({ operator }) => nameAuthor(operator));
+  store.watch(
+    ({ operator }) => [operator],
+    ({ operator }) => nameAuthor(operator),
+  );
   mountWorkedPlan(store);
   mountSteps(store);
   mountVerdict(store);
@@ -106,17 +117,52 @@ export function start(store) {
   // Not the step Run: what the robot says is shown at once, also while Send is held.
   for (const id of ["design", "simulate", "check"]) stillWhilePressed(store, byId(id));
   const panels = panelsAfterPaint({ store, edits, playback, goTo, gaitTools });
-  const patterns = mountPatternEntry(store, { edits, playback, show: (id) => selectGait(store, id), gaitTools });
-  mountKeys({ store, edits, playback, timeline, actions, zoom, escapes: [patterns.cancel, () => panels.segments?.(), timeline.cancelGesture, () => panels.sequence?.(), tools.close, optimise.cancel, () => panels.countdown?.(), menuIsOpen, () => panels.runs?.(), timeline.clearSelection] });
+  const patterns = mountPatternEntry(store, {
+    edits,
+    playback,
+    show: (id) => selectGait(store, id),
+    gaitTools,
+  });
+  mountKeys({
+    store,
+    edits,
+    playback,
+    timeline,
+    actions,
+    zoom,
+    escapes: [
+      patterns.cancel,
+      () => panels.segments?.(),
+      timeline.cancelGesture,
+      () => panels.sequence?.(),
+      tools.close,
+      optimise.cancel,
+      () => panels.countdown?.(),
+      menuIsOpen,
+      () => panels.runs?.(),
+      timeline.clearSelection,
+    ],
+  });
 
   // During a run the preview stands where the robot is, to the end, unless somebody plays the plan.
   let followed = null;
-  store.watch(({ robot, view }) => [robot?.run?.plan_time, robot?.run?.phase, view?.plan], ({ robot, view }) => {
-    const run = robot?.run;
-    const time = run && (run.phase === "streaming" || run.id === followed) ? robotTime(robot, view) : null;
-    followed = run?.phase === "streaming" ? run.id : null;
-    if (time !== null && !playback.playing) playback.setTime(time);
-  });
-  store.watch(({ selected, view }) => [selected, view?.revision], () => clearRefusals());
-  store.watch(({ robot }) => [planIsOn(robot)], ({ robot }) => { if (planIsOn(robot)) openStep("run"); });
+  store.watch(
+    ({ robot, view }) => [robot?.run?.plan_time, robot?.run?.phase, view?.plan],
+    ({ robot, view }) => {
+      const run = robot?.run;
+      const time = run && (run.phase === "streaming" || run.id === followed) ? robotTime(robot, view) : null;
+      followed = run?.phase === "streaming" ? run.id : null;
+      if (time !== null && !playback.playing) playback.setTime(time);
+    },
+  );
+  store.watch(
+    ({ selected, view }) => [selected, view?.revision],
+    () => clearRefusals(),
+  );
+  store.watch(
+    ({ robot }) => [planIsOn(robot)],
+    ({ robot }) => {
+      if (planIsOn(robot)) openStep("run");
+    },
+  );
 }

@@ -26,14 +26,18 @@ function mountFastest(store, gaitTools) {
     await selectGait(store, id);
     openStep("design");
   });
-  const help = "Make a gait that is as fast as the robot's firmware allows. "
+  const help =
+    "Make a gait that is as fast as the robot's firmware allows. "
     + "The dialog shows the robot's speed for each option";
   gaitTools.addNew({ text: "Fastest gait…", help, act: () => open() });
-  store.watch(({ fastestWanted }) => [fastestWanted], ({ fastestWanted }) => {
-    if (!fastestWanted) return;
-    store.set({ fastestWanted: null });
-    open(fastestWanted);
-  });
+  store.watch(
+    ({ fastestWanted }) => [fastestWanted],
+    ({ fastestWanted }) => {
+      if (!fastestWanted) return;
+      store.set({ fastestWanted: null });
+      open(fastestWanted);
+    },
+  );
 }
 
 /** The dialog Atlases, loaded when it is first opened: from the drawer Jobs, and from a job in it. */
@@ -45,16 +49,19 @@ function mountAtlases(store) {
   const button = byId("open-atlases");
   button.disabled = false;
   button.addEventListener("click", () => open());
-  store.watch(({ atlasWanted }) => [atlasWanted], ({ atlasWanted }) => {
-    if (!atlasWanted) return;
-    store.set({ atlasWanted: null });
-    open(atlasWanted);
-  });
+  store.watch(
+    ({ atlasWanted }) => [atlasWanted],
+    ({ atlasWanted }) => {
+      if (!atlasWanted) return;
+      store.set({ atlasWanted: null });
+      open(atlasWanted);
+    },
+  );
 }
 
 /**
  * Builds them.
- * @param {{store: object, edits: object, playback: Playback, goTo: Function, gaitTools: object}} page
+ * @param {{store: Record<string, any>, edits: Record<string, any>, playback: import("./preview/playback.js").Playback, goTo: Function, gaitTools: Record<string, any>}} page
  * @returns {{segments: () => boolean, sequence: () => boolean, countdown: () => boolean, runs: () => boolean}} what each does on Escape; true
  *   where it did something
  */

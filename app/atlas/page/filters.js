@@ -20,7 +20,10 @@ function showRanges(axes, change) {
 function rangeGroup(column, change) {
   const group = element("fieldset", "", { "data-key": column.name });
   group.append(element("legend", titled(column)));
-  for (const [side, limits] of [["from", filters.from], ["to", filters.to]]) {
+  for (const [side, limits] of [
+    ["from", filters.from],
+    ["to", filters.to],
+  ]) {
     const label = element("label", side);
     const field = element("input", "", { type: "number", step: "any", inputmode: "decimal" });
     field.setAttribute("aria-label", `${titled(column)}, ${side}`);
@@ -38,20 +41,22 @@ function rangeGroup(column, change) {
 /** A list for each parameter that has choices. */
 function showChoices(change) {
   const varied = [...columns.values()].filter((column) => column.choices !== null && varies(column));
-  find("choices").replaceChildren(...varied.map((column) => {
-    const label = element("label", `${column.title} `, { class: "row" });
-    const list = element("select", "", { "aria-label": column.title });
-    list.append(element("option", "all", { value: "" }));
-    const words = column.choices.map((_, place) => withUnit(column, choiceWords(column, place)));
-    list.append(...words.map((text, place) => element("option", text, { value: place })));
-    list.addEventListener("change", () => {
-      if (list.value === "") filters.choice.delete(column.name);
-      else filters.choice.set(column.name, Number(list.value));
-      change();
-    });
-    label.append(list);
-    return label;
-  }));
+  find("choices").replaceChildren(
+    ...varied.map((column) => {
+      const label = element("label", `${column.title} `, { class: "row" });
+      const list = element("select", "", { "aria-label": column.title });
+      list.append(element("option", "all", { value: "" }));
+      const words = column.choices.map((_, place) => withUnit(column, choiceWords(column, place)));
+      list.append(...words.map((text, place) => element("option", text, { value: place })));
+      list.addEventListener("change", () => {
+        if (list.value === "") filters.choice.delete(column.name);
+        else filters.choice.set(column.name, Number(list.value));
+        change();
+      });
+      label.append(list);
+      return label;
+    }),
+  );
 }
 
 function clearFilters() {

@@ -2,11 +2,16 @@
 const REACH = { mouse: 14, touch: 28 }; // how far from its dot a gait is still met, px
 const wide = matchMedia("(min-width: 1100px)");
 const state = {
-  x: null, y: null, colour: null,
-  gaits: [], front: [], // the front lies along the horizontal axis
+  x: null,
+  y: null,
+  colour: null,
+  gaits: [],
+  front: [], // the front lies along the horizontal axis
   onFront: new Set(),
-  pointed: null, chosen: null, // gaits, or null
-  asked: false, isStale: true,
+  pointed: null,
+  chosen: null, // gaits, or null
+  asked: false,
+  isStale: true,
 };
 
 function find(id) {
@@ -101,8 +106,10 @@ function choose(gait) {
 /** Goes along the front: so many gaits further to the right, or upwards. */
 function walk(steps, column) {
   if (state.front.length === 0) return;
-  const along = column === state.x ? state.front
-    : [...state.front].sort((a, b) => column.numbers[a] - column.numbers[b] || a - b);
+  const along =
+    column === state.x
+      ? state.front
+      : [...state.front].sort((a, b) => column.numbers[a] - column.numbers[b] || a - b);
   const place = along.indexOf(state.chosen);
   const start = steps > 0 ? 0 : along.length - 1;
   look(along[place < 0 ? start : Math.min(Math.max(place + steps, 0), along.length - 1)], true);
@@ -171,8 +178,14 @@ function fillKeys(list, keys, name) {
     return made;
   };
   list.append(
-    group("Figures", keys.filter((column) => column.isFigure)),
-    group("Parameters", keys.filter((column) => !column.isFigure)),
+    group(
+      "Figures",
+      keys.filter((column) => column.isFigure),
+    ),
+    group(
+      "Parameters",
+      keys.filter((column) => !column.isFigure),
+    ),
   );
   list.value = name;
 }
@@ -182,7 +195,11 @@ function installKeys() {
   const numbers = all.filter((column) => column.isNumber && (varies(column) || column.isFigure));
   const colours = all.filter((column) => varies(column) || column.name === "order");
   const usual = { x: "least_margin", y: "speed", colour: "order" };
-  for (const [id, keys] of [["x", numbers], ["y", numbers], ["colour", colours]]) {
+  for (const [id, keys] of [
+    ["x", numbers],
+    ["y", numbers],
+    ["colour", colours],
+  ]) {
     fillKeys(find(id), keys, usual[id]);
     state[id] = columns.get(usual[id]);
     find(id).addEventListener("change", () => {
@@ -194,7 +211,9 @@ function installKeys() {
 
 /** The filters are unfolded where there is room for them. */
 function installFolding() {
-  const fold = () => { find("filters").open = wide.matches; };
+  const fold = () => {
+    find("filters").open = wide.matches;
+  };
   wide.addEventListener("change", fold);
   fold();
 }
@@ -211,7 +230,10 @@ function start() {
   showChoices(update);
   installMap();
   installTable();
-  find("all").addEventListener("click", () => { clearFilters(); update(); });
+  find("all").addEventListener("click", () => {
+    clearFilters();
+    update();
+  });
   find("copy").addEventListener("click", copyCommand);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
     palette = readPalette();

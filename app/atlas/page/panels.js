@@ -42,12 +42,14 @@ function showLegend(column, gaits) {
   }
   const counts = new Uint32Array(column.choices.length);
   for (const gait of gaits) counts[column.places[gait]] += 1;
-  find("legend").replaceChildren(...column.choices.map((_, place) => {
-    const line = element("li");
-    const count = element("span", counts[place].toLocaleString("en"), { class: "count" });
-    line.append(swatch(tones[place]), element("span", withUnit(column, choiceWords(column, place))), count);
-    return line;
-  }));
+  find("legend").replaceChildren(
+    ...column.choices.map((_, place) => {
+      const line = element("li");
+      const count = element("span", counts[place].toLocaleString("en"), { class: "count" });
+      line.append(swatch(tones[place]), element("span", withUnit(column, choiceWords(column, place))), count);
+      return line;
+    }),
+  );
 }
 
 /** The front as a table, fastest first; one row is a stop of Tab, arrow keys lead to the others. */
@@ -55,15 +57,18 @@ function showFront(listed, gaits, chosen) {
   const keys = ["order", "step", "speed", "least_margin"].map((name) => columns.get(name));
   const body = find("front").tBodies[0];
   const focused = body.contains(document.activeElement);
-  body.replaceChildren(...listed.map((gait) => {
-    const row = element("tr", "", { "data-gait": gait });
-    const head = element("th", "", { scope: "row" });
-    head.append(element("button", String(ids[gait]), { type: "button" }));
-    const cell = (column) => element("td", column === undefined ? "–" : bareWords(column, gait));
-    row.append(head, ...keys.map(cell));
-    return row;
-  }));
-  find("front-count").textContent = `${counted(listed.length, "gait", "gaits")} of `
+  body.replaceChildren(
+    ...listed.map((gait) => {
+      const row = element("tr", "", { "data-gait": gait });
+      const head = element("th", "", { scope: "row" });
+      head.append(element("button", String(ids[gait]), { type: "button" }));
+      const cell = (column) => element("td", column === undefined ? "–" : bareWords(column, gait));
+      row.append(head, ...keys.map(cell));
+      return row;
+    }),
+  );
+  find("front-count").textContent =
+    `${counted(listed.length, "gait", "gaits")} of `
     + `${gaits.length.toLocaleString("en")} shown, the fastest first`;
   markRow(chosen, focused);
 }

@@ -247,7 +247,10 @@ function paintMap({ gaits, front, x, y, colour }) {
 function paintMarks(pointed, chosen) {
   fit(map);
   marks.lineWidth = 2;
-  for (const [gait, radius, tone] of [[pointed, 7, palette.ink], [chosen, 9, palette.accent]]) {
+  for (const [gait, radius, tone] of [
+    [pointed, 7, palette.ink],
+    [chosen, 9, palette.accent],
+  ]) {
     if (gait === null) continue;
     marks.strokeStyle = palette.panel;
     marks.lineWidth = 5;

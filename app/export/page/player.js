@@ -15,9 +15,10 @@ function show() {
   scrub.setAttribute("aria-valuetext", `${(player.time - START).toFixed(1)} s`);
   find("clock").textContent = `${(player.time - START).toFixed(2)} / ${(END - START).toFixed(1)} s`;
   find("margin-dot").style.background = toneOf(state.margin);
-  find("margin").textContent = state.margin === null
-    ? "Too few feet stand for a support polygon"
-    : `Stability margin ${(state.margin * 1000).toFixed(1)} mm${state.margin < 0 ? ", outside the support polygon" : ""}`;
+  find("margin").textContent =
+    state.margin === null
+      ? "Too few feet stand for a support polygon"
+      : `Stability margin ${(state.margin * 1000).toFixed(1)} mm${state.margin < 0 ? ", outside the support polygon" : ""}`;
   const { places } = data.diagram;
   const { knot, part } = place(player.time);
   const x = mix(places[knot], places[Math.min(knot + 1, last)], part);
@@ -63,14 +64,18 @@ function stepBy(knots) {
 }
 
 function onKey(event) {
-  if (["SELECT", "TEXTAREA"].includes(event.target.tagName) || event.ctrlKey || event.metaKey || event.altKey) return;
+  if (["SELECT", "TEXTAREA"].includes(event.target.tagName) || event.ctrlKey || event.metaKey || event.altKey)
+    return;
   const steps = event.shiftKey ? 10 : 1;
   const actions = {
     " ": () => setPlaying(!player.playing),
     ArrowLeft: () => stepBy(-steps),
     ArrowRight: () => stepBy(steps),
     Home: () => goTo(START),
-    End: () => { setPlaying(false); goTo(END); },
+    End: () => {
+      setPlaying(false);
+      goTo(END);
+    },
   };
   if (event.key === " " && event.target.tagName === "BUTTON") return;
   if (actions[event.key] === undefined) return;
@@ -94,14 +99,20 @@ function installPointer() {
     if (held.size === 1) orbit(to[0] - from[0], to[1] - from[1]);
     else {
       const other = [...held].find(([id]) => id !== event.pointerId)[1];
-      zoom(Math.hypot(from[0] - other[0], from[1] - other[1]) / Math.hypot(to[0] - other[0], to[1] - other[1]));
+      zoom(
+        Math.hypot(from[0] - other[0], from[1] - other[1]) / Math.hypot(to[0] - other[0], to[1] - other[1]),
+      );
     }
     held.set(event.pointerId, to);
   });
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    zoom(Math.exp(event.deltaY * 0.001));
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      zoom(Math.exp(event.deltaY * 0.001));
+    },
+    { passive: false },
+  );
 }
 
 function orbit(dx, dy) {
@@ -128,8 +139,16 @@ function installDiagram() {
   };
   new ResizeObserver(fit).observe(diagram);
   const scrubTo = (event) => {
-    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(diagram.getScreenCTM().inverse());
-    const low = Math.min(Math.max(places.findLastIndex((x) => x <= point.x), 0), last - 1);
+    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(
+      diagram.getScreenCTM().inverse(),
+    );
+    const low = Math.min(
+      Math.max(
+        places.findLastIndex((x) => x <= point.x),
+        0,
+      ),
+      last - 1,
+    );
     const part = (point.x - places[low]) / (places[low + 1] - places[low]);
     goTo(mix(data.times[low], data.times[low + 1], Math.min(Math.max(part, 0), 1)));
   };
@@ -138,21 +157,32 @@ function installDiagram() {
     setPlaying(false);
     scrubTo(event);
   });
-  diagram.addEventListener("pointermove", (event) => { if (event.buttons) scrubTo(event); });
+  diagram.addEventListener("pointermove", (event) => {
+    if (event.buttons) scrubTo(event);
+  });
 }
 
 find("scrub").min = START;
 find("scrub").max = END;
-find("scrub").addEventListener("input", (event) => { setPlaying(false); goTo(Number(event.target.value)); });
+find("scrub").addEventListener("input", (event) => {
+  setPlaying(false);
+  goTo(Number(event.target.value));
+});
 find("play").addEventListener("click", () => setPlaying(!player.playing));
 find("body").addEventListener("click", () => {
   camera.showsBody = !camera.showsBody;
   find("body").setAttribute("aria-pressed", String(camera.showsBody));
   ask();
 });
-find("home").addEventListener("click", () => { homeView(); ask(); });
+find("home").addEventListener("click", () => {
+  homeView();
+  ask();
+});
 document.addEventListener("keydown", onKey);
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { palette = readPalette(); ask(); });
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  palette = readPalette();
+  ask();
+});
 new ResizeObserver(ask).observe(canvas);
 addEventListener("beforeprint", show);
 installPointer();

@@ -64,12 +64,22 @@ function legParts(state, leg) {
   robot.directions[leg].forEach((direction, motor) => {
     const stroke = state.strokes[leg][motor];
     const [cx, cy] = robot.centres[leg];
-    const base = robotPoint(state, cx + robot.base_radius * direction[0], cy + robot.base_radius * direction[1]);
+    const base = robotPoint(
+      state,
+      cx + robot.base_radius * direction[0],
+      cy + robot.base_radius * direction[1],
+    );
     const out = turned(state, direction);
     const end = [foot[0] + robot.platform_radius * out[0], foot[1] + robot.platform_radius * out[1], foot[2]];
     const knee = [...base, state.body[2] - (stroke ?? 0)];
-    parts.push({ at: [...base, state.body[2]], paint: () => bar([...base, state.body[2] + robot.plate_heights[0]], knee, robot.rod_diameter, ROD) });
-    parts.push({ at: between(knee, end, 0.5), paint: () => paintLink(knee, end, out, stroke === null ? palette.bad : colour) });
+    parts.push({
+      at: [...base, state.body[2]],
+      paint: () => bar([...base, state.body[2] + robot.plate_heights[0]], knee, robot.rod_diameter, ROD),
+    });
+    parts.push({
+      at: between(knee, end, 0.5),
+      paint: () => paintLink(knee, end, out, stroke === null ? palette.bad : colour),
+    });
   });
   return parts;
 }
@@ -87,7 +97,12 @@ function paintLink(knee, end, out, colour) {
 function paintFoot(foot, colour, heading) {
   const sole = foot[2] - robot.sole_depth;
   prism(circle(foot, robot.sole_diameter / 2), sole, sole + robot.sole_depth * 0.4, colour);
-  prism(circle(foot, robot.foot_diameter / 2, 14), sole + robot.sole_depth * 0.4, foot[2], blended(colour, "#ffffff", 0.25));
+  prism(
+    circle(foot, robot.foot_diameter / 2, 14),
+    sole + robot.sole_depth * 0.4,
+    foot[2],
+    blended(colour, "#ffffff", 0.25),
+  );
   prism(circle(foot, robot.platform_radius + 0.006, 6, heading), foot[2] - 0.001, foot[2] + 0.002, PLATE);
 }
 
@@ -101,16 +116,25 @@ function motorOutline(state, leg, direction) {
   const [x, y] = [cx + robot.base_radius * direction[0], cy + robot.base_radius * direction[1]];
   const half = robot.motor_width / 2;
   const [u, v] = [direction, [-direction[1], direction[0]]];
-  return [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) =>
-    robotPoint(state, x + half * (a * u[0] + b * v[0]), y + half * (a * u[1] + b * v[1])));
+  return [
+    [-1, -1],
+    [1, -1],
+    [1, 1],
+    [-1, 1],
+  ].map(([a, b]) => robotPoint(state, x + half * (a * u[0] + b * v[0]), y + half * (a * u[1] + b * v[1])));
 }
 
 function motors(state, low, high) {
   const parts = [];
-  robot.directions.forEach((directions, leg) => directions.forEach((direction) => {
-    const corners = motorOutline(state, leg, direction);
-    parts.push({ at: [...corners[0], low], paint: () => prism(corners, state.body[2] + low, state.body[2] + high, MOTOR) });
-  }));
+  robot.directions.forEach((directions, leg) =>
+    directions.forEach((direction) => {
+      const corners = motorOutline(state, leg, direction);
+      parts.push({
+        at: [...corners[0], low],
+        paint: () => prism(corners, state.body[2] + low, state.body[2] + high, MOTOR),
+      });
+    }),
+  );
   return parts;
 }
 
@@ -130,6 +154,11 @@ function paintRobot(state) {
   prism(plate, z + upper, z + upper + thick, PLATE);
   paintSorted(motors(state, upper + thick, robot.motor_length));
   const [a, b] = [robot.board[0] / 2, robot.board[1] / 2];
-  const board = [[-a, -b], [a, -b], [a, b], [-a, b]].map(([x, y]) => robotPoint(state, x, y));
+  const board = [
+    [-a, -b],
+    [a, -b],
+    [a, b],
+    [-a, b],
+  ].map(([x, y]) => robotPoint(state, x, y));
   prism(board, z + robot.board_height, z + robot.board_height + robot.board[2], BOARD);
 }

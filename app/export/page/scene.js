@@ -7,7 +7,10 @@ function extent() {
   const xs = data.body.map((point) => point[0]);
   const ys = data.body.map((point) => point[1]);
   const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  return { centre: [(x0 + x1) / 2, (y0 + y1) / 2], radius: Math.hypot(x1 - x0, y1 - y0) / 2 + robot.plate_across / 2 };
+  return {
+    centre: [(x0 + x1) / 2, (y0 + y1) / 2],
+    radius: Math.hypot(x1 - x0, y1 - y0) / 2 + robot.plate_across / 2,
+  };
 }
 
 const world = extent();
@@ -46,7 +49,10 @@ function gridPieces() {
   const [cx, cy] = world.centre.map((part) => Math.round(part / CELL) * CELL);
   const groups = new Map();
   const add = (i, j, towards) => {
-    const [a, b] = [[cx + i * CELL, cy + j * CELL, FLOOR], [cx + towards[0] * CELL, cy + towards[1] * CELL, FLOOR]];
+    const [a, b] = [
+      [cx + i * CELL, cy + j * CELL, FLOOR],
+      [cx + towards[0] * CELL, cy + towards[1] * CELL, FLOOR],
+    ];
     const radius = Math.hypot(i + towards[0], j + towards[1]) / 2 / cells;
     const alpha = Math.round(8 * (1 - Math.min(radius, 1) ** 2)) / 8;
     if (alpha > 0) groups.set(alpha, [...(groups.get(alpha) ?? []), [a, b]]);
@@ -66,7 +72,12 @@ function paintShadows(state) {
   const plate = plateOutline(state);
   const middle = [state.body[0], state.body[1]];
   for (let grow = 1.14; grow > 0.8; grow -= 0.05) {
-    fillFace(plate.map(([x, y]) => [mix(middle[0], x, grow), mix(middle[1], y, grow), FLOOR]), "#0b1018", null, 0.018);
+    fillFace(
+      plate.map(([x, y]) => [mix(middle[0], x, grow), mix(middle[1], y, grow), FLOOR]),
+      "#0b1018",
+      null,
+      0.018,
+    );
   }
   for (const foot of state.feet) {
     const spread = 1 + Math.max(foot[2], 0) * 40;
@@ -125,7 +136,10 @@ function paintTraces(state, time) {
 function paintCentre(state) {
   const ring = circle(state.body, 0.003).map((point) => [...point, FLOOR]);
   fillFace(ring, palette.panel, palette.ink);
-  fillFace(circle(state.body, 0.0016).map((point) => [...point, FLOOR]), palette.ink);
+  fillFace(
+    circle(state.body, 0.0016).map((point) => [...point, FLOOR]),
+    palette.ink,
+  );
 }
 
 /** Whether a place on the canvas lies on the picture of a plate, which hides what is below it. */

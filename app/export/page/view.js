@@ -6,7 +6,17 @@ const pen = canvas.getContext("2d", { willReadFrequently: true });
 const LIGHT = unit([0.45, -0.75, 1.9]);
 const FIELD_OF_VIEW = (32 * Math.PI) / 180;
 const LOWEST_PITCH = 0.28; // from here on the eye is above every part, as the order of painting needs
-const camera = { yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0], eye: [0, 0, 0], axes: [], focal: 1, centre: [0, 0], showsBody: true };
+const camera = {
+  yaw: 0,
+  pitch: 0,
+  distance: 1,
+  target: [0, 0, 0],
+  eye: [0, 0, 0],
+  axes: [],
+  focal: 1,
+  centre: [0, 0],
+  showsBody: true,
+};
 let palette = readPalette();
 
 function unit(v) {
@@ -59,12 +69,20 @@ function rgb(colour) {
 /** A colour in the light that falls on a face, 0 dark to 1 as it is. */
 function lit(colour, normal) {
   const light = 0.58 + 0.42 * Math.max(0, dot(normal, LIGHT));
-  return `rgb(${rgb(colour).map((part) => Math.round(part * light)).join(" ")})`;
+  return `rgb(${rgb(colour)
+    .map((part) => Math.round(part * light))
+    .join(" ")})`;
 }
 
 function blended(colour, other, part) {
   const [a, b] = [rgb(colour), rgb(other)];
-  return `#${a.map((v, i) => Math.round(mix(v, b[i], part)).toString(16).padStart(2, "0")).join("")}`;
+  return `#${a
+    .map((v, i) =>
+      Math.round(mix(v, b[i], part))
+        .toString(16)
+        .padStart(2, "0"),
+    )
+    .join("")}`;
 }
 
 function outline(points, closed = true) {
@@ -99,10 +117,23 @@ function prism(outlineXY, low, high, colour) {
     const towards = [camera.eye[0] - a[0], camera.eye[1] - a[1], 0];
     if (dot(normal, towards) <= 0) continue;
     const shade = lit(colour, normal);
-    fillFace([[...a, low], [...b, low], [...b, high], [...a, high]], shade, shade);
+    fillFace(
+      [
+        [...a, low],
+        [...b, low],
+        [...b, high],
+        [...a, high],
+      ],
+      shade,
+      shade,
+    );
   }
   const top = lit(colour, [0, 0, 1]);
-  fillFace(outlineXY.map((point) => [...point, high]), top, top);
+  fillFace(
+    outlineXY.map((point) => [...point, high]),
+    top,
+    top,
+  );
 }
 
 /** A round bar between two points; width in m. */
@@ -110,7 +141,10 @@ function bar(a, b, width, colour) {
   const [p, q] = [project(a), project(b)];
   const pixels = Math.max((width * camera.focal) / ((p[2] + q[2]) / 2), 1.2);
   pen.lineCap = "round";
-  for (const [extra, shade] of [[1.4, blended(colour, "#10151c", 0.45)], [0, colour]]) {
+  for (const [extra, shade] of [
+    [1.4, blended(colour, "#10151c", 0.45)],
+    [0, colour],
+  ]) {
     pen.strokeStyle = shade;
     pen.lineWidth = pixels + extra;
     pen.beginPath();

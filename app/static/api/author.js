@@ -5,7 +5,8 @@
 
 const KEY = "footfall.page";
 
-const random = () => [...crypto.getRandomValues(new Uint8Array(12))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+const random = () =>
+  [...crypto.getRandomValues(new Uint8Array(12))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 
 function recalled() {
   try {
@@ -41,7 +42,7 @@ channel.addEventListener("message", ({ data }) => {
 channel.postMessage({ asks: page, load });
 
 /** A number for an edit that no other one has, also after a reload. */
-export const editNumber = () => `${load}.${edits += 1}`;
+export const editNumber = () => `${load}.${(edits += 1)}`;
 
 /** This tab's id. */
 export const pageId = () => page;

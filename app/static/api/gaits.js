@@ -22,7 +22,11 @@ async function refusal(response) {
   try {
     const body = await response.json();
     if (body.error) return new ApiError(body.error, response.status, body.where ?? null);
-    if (body.detail) return new ApiError(typeof body.detail === "string" ? body.detail : JSON.stringify(body.detail), response.status);
+    if (body.detail)
+      return new ApiError(
+        typeof body.detail === "string" ? body.detail : JSON.stringify(body.detail),
+        response.status,
+      );
   } catch {
     const unreadable = `The page cannot read the studio's answer (status ${response.status}). Try again.`;
     return new ApiError(unreadable, response.status);
@@ -47,11 +51,16 @@ async function answer(method, path, body, signal) {
   return response;
 }
 
-export const request = async (method, path, body, signal) => (await answer(method, path, body, signal)).json();
+export const request = async (method, path, body, signal) =>
+  (await answer(method, path, body, signal)).json();
 
 /** Sends text or a file unchanged, such as a CSV or JSON file or a picture. */
 export async function sendFile(path, body, type = "text/plain") {
-  const response = await fetch(path, { method: "POST", body, headers: { ...authorHeaders(), "Content-Type": type } });
+  const response = await fetch(path, {
+    method: "POST",
+    body,
+    headers: { ...authorHeaders(), "Content-Type": type },
+  });
   if (!response.ok) throw await refusal(response);
   return response.json();
 }
@@ -77,7 +86,8 @@ async function linesOf(response, told) {
 }
 
 /** Sends a question and passes on each line of the answer as it comes. */
-export const streamed = async (path, body, signal, told) => linesOf(await answer("POST", path, body, signal), told);
+export const streamed = async (path, body, signal, told) =>
+  linesOf(await answer("POST", path, body, signal), told);
 
 const gait = (id) => `/api/gaits/${encodeURIComponent(id)}`;
 
@@ -85,39 +95,53 @@ export const api = {
   view: (id) => request("GET", `${gait(id)}/view`),
   document: (id) => request("GET", gait(id)),
   put: (id, document, { label, number }, revision) =>
-    request("PUT", `${gait(id)}?label=${encodeURIComponent(label)}&revision=${revision}&edit=${number}`, document),
+    request(
+      "PUT",
+      `${gait(id)}?label=${encodeURIComponent(label)}&revision=${revision}&edit=${number}`,
+      document,
+    ),
   redraw: (id, body) => request("POST", `${gait(id)}/redraw`, body),
   history: (id, verb) => request("POST", `${gait(id)}/${verb}`),
-  copy: (id, name) => request("POST", `/api/gaits?copy_of=${encodeURIComponent(id)}&name=${encodeURIComponent(name)}`),
+  copy: (id, name) =>
+    request("POST", `/api/gaits?copy_of=${encodeURIComponent(id)}&name=${encodeURIComponent(name)}`),
   importFile: (body, file) => sendFile(`/api/gaits/import?file=${encodeURIComponent(file)}`, body),
   exportFile: (id, form) => download(`${gait(id)}/export/${form}`),
   robots: () => request("GET", "/api/robots"),
   draw: (words) => request("POST", "/api/gaits/drawn", words),
   sequence: (body) => request("POST", "/api/sequences", body),
   refreshSequence: (id, part, resample) =>
-    request("POST", `${gait(id)}/sequence/refresh?resample=${resample}${part === null ? "" : `&part=${part}`}`),
+    request(
+      "POST",
+      `${gait(id)}/sequence/refresh?resample=${resample}${part === null ? "" : `&part=${part}`}`,
+    ),
   resampleSequence: (id, body) => request("POST", `${gait(id)}/sequence/resample`, body),
   deleted: async () => (await request("GET", "/api/gaits/deleted")).gaits,
   remove: (id) => request("DELETE", gait(id)),
   versions: (id) => request("GET", `${gait(id)}/versions`),
   nameVersion: (id, name) => request("POST", `${gait(id)}/versions`, { name }),
-  difference: (id, number, to = null) => request("GET", `${gait(id)}/versions/${number}/difference${to === null ? "" : `?to=${to}`}`),
+  difference: (id, number, to = null) =>
+    request("GET", `${gait(id)}/versions/${number}/difference${to === null ? "" : `?to=${to}`}`),
   restoreVersion: (id, number) => request("POST", `${gait(id)}/versions/${number}/restore`),
   settleFile: (id, keep) => request("POST", `${gait(id)}/file`, { keep }),
   recover: (id) => request("POST", `${gait(id)}/recover`),
   restore: (id) => request("POST", `${gait(id)}/restore`),
   check: (id) => request("POST", `${gait(id)}/check`),
-  approve: (id, by, verdict, seen) => request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict, accept_warnings: seen }),
+  approve: (id, by, verdict, seen) =>
+    request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict, accept_warnings: seen }),
   approvals: (id) => request("GET", `${gait(id)}/approvals`),
-  approvalDifference: (id, number, to = null) => request("GET", `${gait(id)}/approvals/${number}/difference${to === null ? "" : `?to=${to}`}`),
-  run: (id, { first, iterations }) => request("GET", `${gait(id)}/run?from=${first}&iterations=${iterations}`),
+  approvalDifference: (id, number, to = null) =>
+    request("GET", `${gait(id)}/approvals/${number}/difference${to === null ? "" : `?to=${to}`}`),
+  run: (id, { first, iterations }) =>
+    request("GET", `${gait(id)}/run?from=${first}&iterations=${iterations}`),
   optimiseParts: (id) => request("POST", `${gait(id)}/sequence/optimise`),
   createTable: (document) => request("POST", "/api/tables/made", { document }),
   poseTable: (body) => request("POST", "/api/tables/pose", body),
   tableRepairs: (body) => request("POST", "/api/tables/repairs", body),
-  poses: async (id, plan) => (await answer("GET", `${gait(id)}/poses?plan=${encodeURIComponent(plan)}`)).arrayBuffer(),
+  poses: async (id, plan) =>
+    (await answer("GET", `${gait(id)}/poses?plan=${encodeURIComponent(plan)}`)).arrayBuffer(),
   ghost: async (id, of) => (await answer("GET", `${gait(id)}/ghost?of=${of}`)).arrayBuffer(),
-  reach: (id, plan, workspace) => request("GET", `${gait(id)}/reach?plan=${encodeURIComponent(plan)}&workspace=${workspace}`),
+  reach: (id, plan, workspace) =>
+    request("GET", `${gait(id)}/reach?plan=${encodeURIComponent(plan)}&workspace=${workspace}`),
   live: (id, body) => request("POST", `${gait(id)}/live`, body),
   limit: async (id, body, signal) => (await request("POST", `${gait(id)}/limit`, body, signal)).value,
   remedies: (id, body, signal, told) => streamed(`${gait(id)}/remedies`, body, signal, told),
@@ -136,15 +160,21 @@ export const api = {
   patternDocument: (body) => request("POST", "/api/patterns/document", body),
   optimise: (id) => request("POST", "/api/jobs", { kind: "optimise", gait: id }),
   timing: (id) => request("POST", "/api/jobs", { kind: "timing", gait: id }),
-  simulate: (id, physics, variations) => request("POST", "/api/jobs", { kind: "simulate", gait: id, physics, variations }),
+  simulate: (id, physics, variations) =>
+    request("POST", "/api/jobs", { kind: "simulate", gait: id, physics, variations }),
   physicsSets: (robot) => request("GET", `/api/simulations/sets?robot=${encodeURIComponent(robot)}`),
   simulation: (key) => request("GET", `/api/simulations/${encodeURIComponent(key)}`),
-  simulatedGhost: async (key) => (await answer("GET", `/api/simulations/${encodeURIComponent(key)}/ghost`)).arrayBuffer(),
+  simulatedGhost: async (key) =>
+    (await answer("GET", `/api/simulations/${encodeURIComponent(key)}/ghost`)).arrayBuffer(),
   cancelJob: (id) => request("DELETE", `/api/jobs/${encodeURIComponent(id)}`),
   lease: (act, by) => request("POST", `/api/robot/lease/${act}`, by ? { by } : {}),
   ports: () => request("GET", "/api/robot/ports"),
   transitions: () => request("GET", "/api/robot/transitions"),
-  runs: (wanted) => request("GET", `/api/runs?${new URLSearchParams(Object.entries(wanted).filter(([, value]) => value !== ""))}`),
+  runs: (wanted) =>
+    request(
+      "GET",
+      `/api/runs?${new URLSearchParams(Object.entries(wanted).filter(([, value]) => value !== ""))}`,
+    ),
   compareRuns: (id, other) =>
     request("GET", `/api/runs/${encodeURIComponent(id)}/comparison?other=${encodeURIComponent(other)}`),
   keptRun: (id) => request("GET", `/api/runs/${encodeURIComponent(id)}`),
@@ -164,14 +194,19 @@ const STOP_MS = 1000;
 /**
  * Sends Stop, again and again until it is answered; needs no body.
  * @param {string} by who stops, where known
- * @returns {Promise<object>} the robot's state
+ * @returns {Promise<Record<string, any>>} the robot's state
  * @throws {ApiError} after `attempts` failures, each of which takes `STOP_MS` at most
  */
 export async function sendStop(by, attempts = 5) {
   let failure = null;
   for (let attempt = 0; attempt < attempts; attempt += 1) {
     try {
-      return await request("POST", `/api/robot/stop${by ? `?by=${encodeURIComponent(by)}` : ""}`, undefined, AbortSignal.timeout(STOP_MS));
+      return await request(
+        "POST",
+        `/api/robot/stop${by ? `?by=${encodeURIComponent(by)}` : ""}`,
+        undefined,
+        AbortSignal.timeout(STOP_MS),
+      );
     } catch (error) {
       failure = error;
       await new Promise((resume) => setTimeout(resume, 150 * attempt));

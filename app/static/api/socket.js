@@ -9,7 +9,9 @@ import { onRenamed, pageId } from "./author.js";
 export function openSocket() {
   const query = new URLSearchParams(location.search);
   query.set("page", pageId());
-  return new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/events?${query}`);
+  return new WebSocket(
+    `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/events?${query}`,
+  );
 }
 
 const first = openSocket();

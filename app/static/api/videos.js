@@ -20,15 +20,21 @@ function refusal({ status, responseText }) {
  * @param {string} path
  * @param {Blob} file
  * @param {{signal?: AbortSignal, progress?: (share: number) => void}} [options]
- * @returns {Promise<object>} the answer; null where it was cancelled
+ * @returns {Promise<Record<string, any>>} the answer; null where it was cancelled
  */
 function sendFile(path, file, { signal, progress = () => {} } = {}) {
   return new Promise((resolve, reject) => {
     const sending = new XMLHttpRequest();
     sending.open("POST", path);
-    for (const [name, value] of Object.entries({ ...authorHeaders(), "Content-Type": file.type || "application/octet-stream" })) sending.setRequestHeader(name, value);
+    for (const [name, value] of Object.entries({
+      ...authorHeaders(),
+      "Content-Type": file.type || "application/octet-stream",
+    }))
+      sending.setRequestHeader(name, value);
     sending.upload.addEventListener("progress", ({ loaded, total }) => progress(total ? loaded / total : 0));
-    sending.addEventListener("load", () => (sending.status < 300 ? resolve(JSON.parse(sending.responseText)) : reject(refusal(sending))));
+    sending.addEventListener("load", () =>
+      sending.status < 300 ? resolve(JSON.parse(sending.responseText)) : reject(refusal(sending)),
+    );
     const lost = "The upload failed. The studio does not answer, or it closed the connection.";
     sending.addEventListener("error", () => reject(new ApiError(lost, 0)));
     sending.addEventListener("abort", () => resolve(null));
@@ -59,7 +65,8 @@ export const setupApi = {
   remove: (id) => request("DELETE", at("setups", id)),
   restore: (id) => request("POST", `${at("setups", id)}/restore`),
   exportPath: (id) => `${at("setups", id)}/export`,
-  board: (file, columns, rows, signal) => sendFile(`/api/boards?${parameters({ columns, rows, name: file.name })}`, file, { signal }),
+  board: (file, columns, rows, signal) =>
+    sendFile(`/api/boards?${parameters({ columns, rows, name: file.name })}`, file, { signal }),
   lens: (body) => request("POST", "/api/lens", body),
   straight: (lens, picture) => request("POST", "/api/lens/look", { lens, picture }),
 };
@@ -67,7 +74,8 @@ export const setupApi = {
 export const cameraApi = {
   list: async () => (await request("GET", "/api/cameras")).cameras,
   change: (id, changes) => request("PUT", at("cameras", id), changes),
-  board: (id, columns, rows) => request("POST", `${at("cameras", id)}/board?${parameters({ columns, rows })}`),
+  board: (id, columns, rows) =>
+    request("POST", `${at("cameras", id)}/board?${parameters({ columns, rows })}`),
 };
 
 /**
@@ -82,10 +90,12 @@ const base = ({ kind, id }) => at(`${kind}s`, id);
 const ofFrame = ({ kind }, frame) => (kind === "video" ? `?frame=${frame}` : "");
 
 /** Looks at one picture of a source with a foot's colours. */
-export const look = (source, frame, body, signal) => request("POST", `${base(source)}/look${ofFrame(source, frame)}`, body, signal);
+export const look = (source, frame, body, signal) =>
+  request("POST", `${base(source)}/look${ofFrame(source, frame)}`, body, signal);
 
 /** The address of one picture of a source; a camera's is another one each time. */
-export const pictureOf = (source, frame) => `${base(source)}/picture.jpg${source.kind === "video" ? `?frame=${frame}` : `?now=${Date.now()}`}`;
+export const pictureOf = (source, frame) =>
+  `${base(source)}/picture.jpg${source.kind === "video" ? `?frame=${frame}` : `?now=${Date.now()}`}`;
 
 /** The address of a camera's moving picture. */
 export const streamOf = (id, most, rate = 10) => `${at("cameras", id)}/stream?${parameters({ rate, most })}`;

@@ -22,10 +22,15 @@ function link(text, href, label, title, more) {
 function deleteButton({ name, included }, isBusy, erase) {
   const label = `Delete ${name}`;
   const button = h("button", { type: "button", class: "link", text: "Delete", "aria-label": label });
-  const why = included ? "You cannot delete this atlas, because it comes with the program"
+  const why = included
+    ? "You cannot delete this atlas, because it comes with the program"
     : "A job is making this atlas. Cancel the job before you delete the atlas";
   setAllowed(button, included || isBusy ? why : null, DELETE_HELP);
-  onPress(button, () => erase(name), (reason) => toast(`${reason}.`));
+  onPress(
+    button,
+    () => erase(name),
+    (reason) => toast(`${reason}.`),
+  );
   return button;
 }
 
@@ -37,12 +42,25 @@ function titleOf({ name, included }, pick) {
 
 function files(name) {
   const [html, csv] = ["html", "csv"].map((form) => atlasApi.fileAddress(name, form));
-  return h("td", { class: "atlas-files" },
-    link("Map", atlasApi.mapAddress(name), `Map of ${name}`, "Opens the map of this atlas in a new tab",
-      NEW_TAB),
-    link("HTML", html, `${name} as HTML`,
-      "Downloads the map as a web page. The page opens without the studio", { download: "" }),
-    link("CSV", csv, `${name} as CSV`, "Downloads all gaits of this atlas as a table", { download: "" }));
+  return h(
+    "td",
+    { class: "atlas-files" },
+    link(
+      "Map",
+      atlasApi.mapAddress(name),
+      `Map of ${name}`,
+      "Opens the map of this atlas in a new tab",
+      NEW_TAB,
+    ),
+    link(
+      "HTML",
+      html,
+      `${name} as HTML`,
+      "Downloads the map as a web page. The page opens without the studio",
+      { download: "" },
+    ),
+    link("CSV", csv, `${name} as CSV`, "Downloads all gaits of this atlas as a table", { download: "" }),
+  );
 }
 
 function tableRow(atlas, isBusy, { pick, erase }) {
@@ -53,8 +71,18 @@ function tableRow(atlas, isBusy, { pick, erase }) {
   }
   const fastest = atlas.fastest === null ? "–" : `${fixed(atlas.fastest * 1000, 2)} mm/s`;
   const numbers = [count(atlas.gaits), count(atlas.solved), fastest];
-  return h("tr", {}, h("td", {}, titleOf(atlas, () => pick(atlas))),
-    ...numbers.map((text) => h("td", { class: "number", text })), files(atlas.name), remove);
+  return h(
+    "tr",
+    {},
+    h(
+      "td",
+      {},
+      titleOf(atlas, () => pick(atlas)),
+    ),
+    ...numbers.map((text) => h("td", { class: "number", text })),
+    files(atlas.name),
+    remove,
+  );
 }
 
 function head() {
@@ -65,8 +93,8 @@ function head() {
 
 /**
  * Builds the table.
- * @param {object} store
- * @param {{pick: (atlas: object) => void, changed: (atlases: object[]) => void}} acts
+ * @param {import("../state/store.js").Store} store
+ * @param {{pick: (atlas: Record<string, any>) => void, changed: (atlases: Record<string, any>[]) => void}} acts
  * @returns {{element: HTMLElement, show: () => void}} `show` reads the list anew
  */
 export function atlasTable(store, { pick, changed }) {
@@ -75,7 +103,10 @@ export function atlasTable(store, { pick, changed }) {
   const erase = attempt(async (name) => {
     await atlasApi.erase(name);
     show();
-    const undo = attempt(async () => { await atlasApi.restore(name); show(); });
+    const undo = attempt(async () => {
+      await atlasApi.restore(name);
+      show();
+    });
     toast(`The atlas “${name}” is deleted.`, { action: { label: "Undo", act: undo } });
   });
   const read = latestOnly(async () => {

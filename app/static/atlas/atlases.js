@@ -9,7 +9,8 @@ import { jobIsOn } from "../shell/job_list.js";
 import { robotOptions, robots } from "../shell/robots.js";
 import { atlasTable, count } from "./atlas_table.js";
 
-const PURPOSE = "An atlas shows what a robot can do. The studio makes thousands of gaits with different "
+const PURPOSE =
+  "An atlas shows what a robot can do. The studio makes thousands of gaits with different "
   + "foot orders, steps, turns and stability margins. The studio solves and checks each gait. "
   + "The map of an atlas shows which gaits are fast and which gaits are stable.";
 const COST = "The studio evaluates about 40 gaits a second in the background. You can go on working.";
@@ -24,8 +25,13 @@ function addStyles() {
 }
 
 function labelled(label, control, help, refusal) {
-  return h("label", { class: "new-row", title: help },
-    h("span", { class: "name", text: label }), control, refusal?.element);
+  return h(
+    "label",
+    { class: "new-row", title: help },
+    h("span", { class: "name", text: label }),
+    control,
+    refusal?.element,
+  );
 }
 
 /** Robot, name and number of gaits; the name follows the robot until a person types one. */
@@ -42,13 +48,20 @@ function fields(list, changed) {
     changed();
   };
   robot.addEventListener("change", follow);
-  name.addEventListener("input", () => { isNamed = true; nameRefusal.setError(null); changed(); });
+  name.addEventListener("input", () => {
+    isNamed = true;
+    nameRefusal.setError(null);
+    changed();
+  });
   gaits.addEventListener("input", () => gaitsRefusal.setError(null));
   return {
-    element: h("div", { class: "atlas-fields" },
+    element: h(
+      "div",
+      { class: "atlas-fields" },
       labelled("Robot", robot, "The studio evaluates gaits of this robot"),
       labelled("Name", name, NAME_HELP, nameRefusal),
-      labelled("Gaits", gaits, `Number of gaits in the atlas (1 to ${count(MOST)})`, gaitsRefusal)),
+      labelled("Gaits", gaits, `Number of gaits in the atlas (1 to ${count(MOST)})`, gaitsRefusal),
+    ),
     robot: () => robot.value,
     name: () => name.value.trim(),
     follow,
@@ -118,28 +131,38 @@ function form(store, list, close) {
   const cancel = h("button", { type: "button", text: "Close", on: { click: () => close(null) } });
   return {
     content: [
-      h("p", { class: "quiet", text: PURPOSE }), asked.element, h("p", { class: "quiet", text: COST }), refused,
-      h("div", { class: "buttons" }, cancel, make), table.element,
+      h("p", { class: "quiet", text: PURPOSE }),
+      asked.element,
+      h("p", { class: "quiet", text: COST }),
+      refused,
+      h("div", { class: "buttons" }, cancel, make),
+      table.element,
     ],
     accept,
     /** Picks an atlas once the list is there. */
-    want: (name) => { wanted = name; asked.follow(); },
+    want: (name) => {
+      wanted = name;
+      asked.follow();
+    },
     refresh: table.show,
   };
 }
 
 /** Tells states of the list of jobs apart by which the list of atlases changes. */
 function stateOf({ jobs }) {
-  return jobs.filter(({ kind }) => kind === "atlas").map(({ id, state }) => `${id} ${state}`).join();
+  return jobs
+    .filter(({ kind }) => kind === "atlas")
+    .map(({ id, state }) => `${id} ${state}`)
+    .join();
 }
 
 let isOpen = false;
 
 /**
  * Opens the dialog.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @param {string|null} wanted name of the atlas that is picked
- * @returns {Promise<object|null>} the job that was started
+ * @returns {Promise<Record<string, any>|null>} the job that was started
  */
 export async function askAtlas(store, wanted = null) {
   if (isOpen) return null;
@@ -149,18 +172,23 @@ export async function askAtlas(store, wanted = null) {
     addStyles();
     const list = await robots();
     let parts = null;
-    return await openDialog((close) => {
-      let dialog = null;
-      const closeOpen = (value) => { if (dialog.isConnected) close(value); };
-      parts = form(store, list, closeOpen);
-      dialog = dialogFrame("Atlases", closeOpen, parts.accept, ...parts.content);
-      dialog.classList.add("atlases");
-      dialog.querySelector("form").noValidate = true;
-      return dialog;
-    }, () => {
-      parts.want(wanted);
-      unwatch = store.watch((state) => [stateOf(state)], parts.refresh);
-    });
+    return await openDialog(
+      (close) => {
+        let dialog = null;
+        const closeOpen = (value) => {
+          if (dialog.isConnected) close(value);
+        };
+        parts = form(store, list, closeOpen);
+        dialog = dialogFrame("Atlases", closeOpen, parts.accept, ...parts.content);
+        dialog.classList.add("atlases");
+        dialog.querySelector("form").noValidate = true;
+        return dialog;
+      },
+      () => {
+        parts.want(wanted);
+        unwatch = store.watch((state) => [stateOf(state)], parts.refresh);
+      },
+    );
   } finally {
     isOpen = false;
     unwatch();

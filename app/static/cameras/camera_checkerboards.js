@@ -9,12 +9,36 @@ export const LEAST_CHECKERBOARDS = 3;
 
 /** One picture of the board: whether it was found, and how far the lens leaves it off. */
 export function checkerboardRow(board, rms, { remove, show }) {
-  const words = board.found ? (rms === undefined || rms === null ? "found" : `${fixed(rms, 2)} px`) : "not found";
+  const words = board.found
+    ? rms === undefined || rms === null
+      ? "found"
+      : `${fixed(rms, 2)} px`
+    : "not found";
   const picture = board.picture ? h("img", { src: board.picture, alt: "" }) : h("i");
-  return h("li", { data: { found: board.found } },
-    h("button", { type: "button", class: "plain", title: "Show this picture", "aria-label": `Show ${board.name}`, on: { click: () => show(board) } }, picture),
-    h("span", { class: "camera-board-name", text: board.name }), h("span", { class: board.found ? "number" : "number why", text: words }),
-    h("button", { type: "button", class: "link", text: "Remove", "aria-label": `Remove ${board.name}`, on: { click: () => remove(board) } }));
+  return h(
+    "li",
+    { data: { found: board.found } },
+    h(
+      "button",
+      {
+        type: "button",
+        class: "plain",
+        title: "Show this picture",
+        "aria-label": `Show ${board.name}`,
+        on: { click: () => show(board) },
+      },
+      picture,
+    ),
+    h("span", { class: "camera-board-name", text: board.name }),
+    h("span", { class: board.found ? "number" : "number why", text: words }),
+    h("button", {
+      type: "button",
+      class: "link",
+      text: "Remove",
+      "aria-label": `Remove ${board.name}`,
+      on: { click: () => remove(board) },
+    }),
+  );
 }
 
 /** The pictures of the board that were taken or chosen, each once, and the lens that follows from them. */
@@ -28,7 +52,10 @@ export function checkerboardBook({ changed, found }) {
     figures = new Map();
     changed();
     if (boards.filter((board) => board.found).length < LEAST_CHECKERBOARDS) return;
-    const answer = await setupApi.lens({ ...corners, boards: boards.map(({ picture: _, ...board }) => board) });
+    const answer = await setupApi.lens({
+      ...corners,
+      boards: boards.map(({ picture: _, ...board }) => board),
+    });
     if (request !== number) return;
     answer.boards.forEach(({ rms_px: rms }, index) => figures.set(boards[index], rms));
     found(answer);
@@ -36,7 +63,9 @@ export function checkerboardBook({ changed, found }) {
   }
 
   return {
-    get boards() { return boards; },
+    get boards() {
+      return boards;
+    },
     corners,
     rmsOf: (board) => figures.get(board),
     async add(next) {
@@ -59,51 +88,88 @@ export function checkerboardBook({ changed, found }) {
 /** Ways to pictures of the board: files, frames of the shown video, what the camera sees. */
 export function checkerboardSources(stage, book, status) {
   const { source } = stage;
-  const files = h("input", { type: "file", multiple: true, accept: "image/*", "aria-label": "Pictures of the checkerboard" });
-  const spread = h("button", { type: "button", text: "Frames of this video", title: "Looks for the checkerboard in 24 frames, spread evenly over the video" });
-  const one = h("button", { type: "button", text: source.kind === "video" ? "The shown frame" : "The picture now", title: "Looks for the checkerboard in the picture that is shown" });
+  const files = h("input", {
+    type: "file",
+    multiple: true,
+    accept: "image/*",
+    "aria-label": "Pictures of the checkerboard",
+  });
+  const spread = h("button", {
+    type: "button",
+    text: "Frames of this video",
+    title: "Looks for the checkerboard in 24 frames, spread evenly over the video",
+  });
+  const one = h("button", {
+    type: "button",
+    text: source.kind === "video" ? "The shown frame" : "The picture now",
+    title: "Looks for the checkerboard in the picture that is shown",
+  });
   const stop = h("button", { type: "button", class: "link", text: "Cancel", hidden: true });
   let ending = null;
 
-  const looking = (act) => attempt(async () => {
-    if (ending) return;
-    ending = new AbortController();
-    stop.hidden = false;
-    setText(status, "Looking for the checkerboard…");
-    try {
-      await act(ending.signal);
-    } finally {
-      ending = null;
-      stop.hidden = true;
-      setText(status, "");
-    }
-  });
+  const looking = (act) =>
+    attempt(async () => {
+      if (ending) return;
+      ending = new AbortController();
+      stop.hidden = false;
+      setText(status, "Looking for the checkerboard…");
+      try {
+        await act(ending.signal);
+      } finally {
+        ending = null;
+        stop.hidden = true;
+        setText(status, "");
+      }
+    });
   const { columns, rows } = { columns: () => book.corners.columns, rows: () => book.corners.rows };
-  files.addEventListener("change", looking(async (signal) => {
-    const chosen = [...files.files];
-    for (const [index, file] of chosen.entries()) {
-      setText(status, `Looking for the checkerboard: picture ${index + 1} of ${chosen.length}…`);
-      const board = await setupApi.board(file, columns(), rows(), signal);
-      if (board === null || signal.aborted) break;
-      await book.add([board]);
-    }
-    files.value = "";
-  }));
+  files.addEventListener(
+    "change",
+    looking(async (signal) => {
+      const chosen = [...files.files];
+      for (const [index, file] of chosen.entries()) {
+        setText(status, `Looking for the checkerboard: picture ${index + 1} of ${chosen.length}…`);
+        const board = await setupApi.board(file, columns(), rows(), signal);
+        if (board === null || signal.aborted) break;
+        await book.add([board]);
+      }
+      files.value = "";
+    }),
+  );
   spread.hidden = source.kind !== "video";
-  spread.addEventListener("click", looking(async (signal) => {
-    let [frames, looked] = [null, 0];
-    do {
-      const { boards, left } = await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames });
-      if (signal.aborted) break;
+  spread.addEventListener(
+    "click",
+    looking(async (signal) => {
+      let [frames, looked] = [null, 0];
+      do {
+        const { boards, left } = await videoApi.boards(source.id, {
+          columns: columns(),
+          rows: rows(),
+          frames,
+        });
+        if (signal.aborted) break;
+        await book.add(boards);
+        [frames, looked] = [left, looked + boards.length];
+        if (left.length)
+          setText(status, `Looking for the checkerboard: picture ${looked + 1} of ${looked + left.length}…`);
+      } while (frames.length);
+    }),
+  );
+  one.addEventListener(
+    "click",
+    looking(async () => {
+      const boards =
+        source.kind === "video"
+          ? (await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames: [stage.frame] }))
+              .boards
+          : [await cameraApi.board(source.id, columns(), rows())];
       await book.add(boards);
-      [frames, looked] = [left, looked + boards.length];
-      if (left.length) setText(status, `Looking for the checkerboard: picture ${looked + 1} of ${looked + left.length}…`);
-    } while (frames.length);
-  }));
-  one.addEventListener("click", looking(async () => {
-    const boards = source.kind === "video" ? (await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames: [stage.frame] })).boards : [await cameraApi.board(source.id, columns(), rows())];
-    await book.add(boards);
-  }));
+    }),
+  );
   stop.addEventListener("click", () => ending?.abort());
-  return h("div", { class: "camera-sources" }, h("label", {}, h("span", { text: "Pictures" }), files), h("div", { class: "camera-row" }, spread, one, stop));
+  return h(
+    "div",
+    { class: "camera-sources" },
+    h("label", {}, h("span", { text: "Pictures" }), files),
+    h("div", { class: "camera-row" }, spread, one, stop),
+  );
 }

@@ -11,39 +11,93 @@ import { FOOT_NAMES } from "./camera_labels.js";
 import { blobNumbers, drawBlobs } from "./camera_overlay.js";
 
 const MOST_WIDTH = 1280;
-const HELP = "Set the colour of each foot. Select a foot, press Pick colour, then click on this foot in the "
+const HELP =
+  "Set the colour of each foot. Select a foot, press Pick colour, then click on this foot in the "
   + "picture. Look at other pictures, and adjust the colour until the studio finds the foot in each picture.";
 const MASK_HELP = "Shows the pixels with the colour of the selected foot and dims all other pixels";
 
 function footButtons(choose) {
-  const buttons = FOOT_NAMES.map((name, index) => h("button", { type: "button", "aria-pressed": "false", data: { foot: index + 1 }, "aria-label": name, on: { click: () => choose(index) } },
-    h("i", { class: "foot-dot", "aria-hidden": "true" }), String(index + 1)));
+  const buttons = FOOT_NAMES.map((name, index) =>
+    h(
+      "button",
+      {
+        type: "button",
+        "aria-pressed": "false",
+        data: { foot: index + 1 },
+        "aria-label": name,
+        on: { click: () => choose(index) },
+      },
+      h("i", { class: "foot-dot", "aria-hidden": "true" }),
+      String(index + 1),
+    ),
+  );
   return {
     element: h("div", { class: "camera-choice", role: "group", "aria-label": "Foot" }, ...buttons),
-    show: (foot) => buttons.forEach((button, index) => button.setAttribute("aria-pressed", String(index === foot))),
+    show: (foot) =>
+      buttons.forEach((button, index) => button.setAttribute("aria-pressed", String(index === foot))),
   };
 }
 
 function blobText({ area, fill, fit, reason }, number, isChosen) {
-  return h("li", { data: { fit: isChosen ? "chosen" : fit ? "fit" : "refused" } }, h("b", { text: String(number) }), h("span", { class: "number", text: `${fixed(area, 0)} px², filled ${fixed(fill * 100, 0)} %` }),
-    h("span", { class: isChosen ? "" : "quiet", text: isChosen ? "chosen as the foot" : reason ?? "smaller than the chosen spot" }));
+  return h(
+    "li",
+    { data: { fit: isChosen ? "chosen" : fit ? "fit" : "refused" } },
+    h("b", { text: String(number) }),
+    h("span", { class: "number", text: `${fixed(area, 0)} px², filled ${fixed(fill * 100, 0)} %` }),
+    h("span", {
+      class: isChosen ? "" : "quiet",
+      text: isChosen ? "chosen as the foot" : (reason ?? "smaller than the chosen spot"),
+    }),
+  );
 }
 
 function feetText(feet) {
-  const words = (one) => (one === null ? "not seen" : one.place_cm ? `${fixed(one.place_cm[0], 1)}, ${fixed(one.place_cm[1], 1)} cm` : "seen");
-  return feet.map((one, index) => h("li", { data: { foot: index + 1 } }, h("i", { class: "foot-dot", "aria-hidden": "true" }), h("span", { text: FOOT_NAMES[index] }), h("span", { class: one ? "number" : "number why", text: words(one) })));
+  const words = (one) =>
+    one === null
+      ? "not seen"
+      : one.place_cm
+        ? `${fixed(one.place_cm[0], 1)}, ${fixed(one.place_cm[1], 1)} cm`
+        : "seen";
+  return feet.map((one, index) =>
+    h(
+      "li",
+      { data: { foot: index + 1 } },
+      h("i", { class: "foot-dot", "aria-hidden": "true" }),
+      h("span", { text: FOOT_NAMES[index] }),
+      h("span", { class: one ? "number" : "number why", text: words(one) }),
+    ),
+  );
 }
 
 /** The list of spots in the shown picture, and where each foot is taken to be. */
 function findings() {
-  const [spots, feet, head] = [h("ul", { class: "camera-spots", "aria-label": "Spots of this colour" }), h("ul", { class: "camera-feet", "aria-label": "Feet in this picture" }), h("p", { class: "quiet", role: "status" })];
+  const [spots, feet, head] = [
+    h("ul", { class: "camera-spots", "aria-label": "Spots of this colour" }),
+    h("ul", { class: "camera-feet", "aria-label": "Feet in this picture" }),
+    h("p", { class: "quiet", role: "status" }),
+  ];
   return {
-    element: h("div", { class: "camera-found" }, head, spots, h("h3", { text: "All feet in this picture" }), feet),
+    element: h(
+      "div",
+      { class: "camera-found" },
+      head,
+      spots,
+      h("h3", { text: "All feet in this picture" }),
+      feet,
+    ),
     show(answer, foot) {
       const fit = answer.spots.filter((spot) => spot.fit).length;
       const count = answer.spots.length + answer.more;
-      setText(head, count ? `Spots with the colour of foot ${foot + 1}: ${count}. Spots that may be the foot: ${fit}.` : `Nothing in this picture has the colour of foot ${foot + 1}.`);
-      spots.replaceChildren(...answer.spots.map((spot, index) => blobText(spot, index + 1, index === answer.chosen)), ...(answer.more ? [h("li", { class: "quiet", text: `and ${answer.more} smaller` })] : []));
+      setText(
+        head,
+        count
+          ? `Spots with the colour of foot ${foot + 1}: ${count}. Spots that may be the foot: ${fit}.`
+          : `Nothing in this picture has the colour of foot ${foot + 1}.`,
+      );
+      spots.replaceChildren(
+        ...answer.spots.map((spot, index) => blobText(spot, index + 1, index === answer.chosen)),
+        ...(answer.more ? [h("li", { class: "quiet", text: `and ${answer.more} smaller` })] : []),
+      );
       feet.replaceChildren(...feetText(answer.feet));
     },
   };
@@ -52,14 +106,25 @@ function findings() {
 /** The fields of a foot's colour, and of the spots that may be any foot. */
 function colourFields(change, changeLimits) {
   const hue = hueRange((range, last) => change({ hue: range }, last));
-  const saturation = shareField("Least saturation", "Pixels with a lower saturation do not count as "
-    + "part of the foot. Pale and grey pixels have a low saturation",
-    (share, last) => change({ saturation: share }, last));
-  const value = shareField("Least brightness", "Darker pixels do not count as part of the foot. "
-    + "Pixels in a shadow are dark", (share, last) => change({ value: share }, last));
+  const saturation = shareField(
+    "Least saturation",
+    "Pixels with a lower saturation do not count as "
+      + "part of the foot. Pale and grey pixels have a low saturation",
+    (share, last) => change({ saturation: share }, last),
+  );
+  const value = shareField(
+    "Least brightness",
+    "Darker pixels do not count as part of the foot. " + "Pixels in a shadow are dark",
+    (share, last) => change({ value: share }, last),
+  );
   const limits = limitFields(changeLimits);
   return {
-    elements: [hue.element, saturation.element, value.element, h("details", {}, h("summary", { text: "Which spots may be a foot" }), limits.element)],
+    elements: [
+      hue.element,
+      saturation.element,
+      value.element,
+      h("details", {}, h("summary", { text: "Which spots may be a foot" }), limits.element),
+    ],
     show(setup, foot) {
       const colour = setup.colours[foot];
       hue.show(colour.hue, `Foot ${foot + 1}`);
@@ -72,8 +137,8 @@ function colourFields(change, changeLimits) {
 
 /**
  * Builds the part.
- * @param {object} draft of `setupDraft`
- * @param {object} stage of `openStage`
+ * @param {Record<string, any>} draft of `setupDraft`
+ * @param {Record<string, any>} stage of `openStage`
  * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
  */
 export function feetPart(draft, stage) {
@@ -85,12 +150,33 @@ export function feetPart(draft, stage) {
     draft.change(patch, last);
     stage.refresh();
   }
-  const changeColour = (patch, last) => change({ colours: draft.state.setup.colours.map((one, index) => (index === foot ? { ...one, ...patch } : one)) }, last);
-  const buttons = footButtons((next) => { foot = next; show(); stage.refresh(); });
-  const fields = colourFields(changeColour, (patch) => change({ limits: { ...draft.state.setup.limits, ...patch } }));
-  const turnMask = () => { hasMask = !hasMask; showMask(); };
+  const changeColour = (patch, last) =>
+    change(
+      {
+        colours: draft.state.setup.colours.map((one, index) => (index === foot ? { ...one, ...patch } : one)),
+      },
+      last,
+    );
+  const buttons = footButtons((next) => {
+    foot = next;
+    show();
+    stage.refresh();
+  });
+  const fields = colourFields(changeColour, (patch) =>
+    change({ limits: { ...draft.state.setup.limits, ...patch } }),
+  );
+  const turnMask = () => {
+    hasMask = !hasMask;
+    showMask();
+  };
   const mask = h("button", { type: "button", text: "Mask", title: MASK_HELP, on: { click: turnMask } });
-  const picking = colourPicking(stage.picture, { changed: () => showMask(), take: (range) => { changeColour(range); announce(`The colour of foot ${foot + 1} is set.`); } });
+  const picking = colourPicking(stage.picture, {
+    changed: () => showMask(),
+    take: (range) => {
+      changeColour(range);
+      announce(`The colour of foot ${foot + 1} is set.`);
+    },
+  });
   const shows = () => (hasMask && !picking.isOn() ? "mask" : "plain");
 
   function showMask() {
@@ -99,8 +185,22 @@ export function feetPart(draft, stage) {
   }
 
   async function fetching(frame) {
-    const [began, wanted, { setup, answer: { view } }] = [since ?? performance.now(), shows(), draft.state];
-    const answer = await look(stage.source, frame, { foot: foot + 1, colours: setup.colours, limits: setup.limits, shows: wanted, setup: view ? setup : null, most: MOST_WIDTH });
+    const [
+      began,
+      wanted,
+      {
+        setup,
+        answer: { view },
+      },
+    ] = [since ?? performance.now(), shows(), draft.state];
+    const answer = await look(stage.source, frame, {
+      foot: foot + 1,
+      colours: setup.colours,
+      limits: setup.limits,
+      shows: wanted,
+      setup: view ? setup : null,
+      most: MOST_WIDTH,
+    });
     if (!isOn) return null;
     await stage.picture.show(answer.picture, answer.size);
     if (!isOn) return null;
@@ -113,14 +213,27 @@ export function feetPart(draft, stage) {
     return null;
   }
 
-  const show = () => { buttons.show(foot); fields.show(draft.state.setup, foot); };
+  const show = () => {
+    buttons.show(foot);
+    fields.show(draft.state.setup, foot);
+  };
 
-  draft.watch(({ setup }) => [setup.colours, setup.limits], () => { if (isOn) show(); });
+  draft.watch(
+    ({ setup }) => [setup.colours, setup.limits],
+    () => {
+      if (isOn) show();
+    },
+  );
   showMask();
   return {
-    element: h("div", { class: "camera-part" },
+    element: h(
+      "div",
+      { class: "camera-part" },
       h("p", { class: "quiet", text: HELP }),
-      h("div", { class: "camera-row" }, buttons.element, picking.button, mask), ...fields.elements, found.element),
+      h("div", { class: "camera-row" }, buttons.element, picking.button, mask),
+      ...fields.elements,
+      found.element,
+    ),
     enter() {
       isOn = true;
       show();
@@ -138,13 +251,14 @@ export function feetPart(draft, stage) {
 
 /**
  * Builds the button.
- * @param {object} picture of `pictureView`
- * @param {{changed: () => void, take: (range: object) => void}} acts `changed` when picking begins or ends
+ * @param {Record<string, any>} picture of `pictureView`
+ * @param {{changed: () => void, take: (range: Record<string, any>) => void}} acts `changed` when picking begins or ends
  * @returns {{button: HTMLElement, isOn: () => boolean, shown: (hasOwnColours: boolean) => void, end: () => void}} call `shown` with
  *   each new picture: whether it has its own colours
  */
 export function colourPicking(picture, { changed, take }) {
-  const title = "Press this button, then click on the selected foot in the picture. "
+  const title =
+    "Press this button, then click on the selected foot in the picture. "
     + "The studio takes the colour of the foot from the picture";
   const button = h("button", { type: "button", text: "Pick colour", "aria-pressed": "false", title });
   let [hasOwnColours, clicked] = [false, null];
@@ -161,7 +275,9 @@ export function colourPicking(picture, { changed, take }) {
     clicked = null;
     const range = rangeAt(picture, place);
     if (!range) {
-      toast("The place you clicked is grey, black or white. Click on the coloured sole of the foot.", { of: "studio" });
+      toast("The place you clicked is grey, black or white. Click on the coloured sole of the foot.", {
+        of: "studio",
+      });
       return;
     }
     turn(false);
@@ -176,12 +292,15 @@ export function colourPicking(picture, { changed, take }) {
     else clicked = place;
   });
   return {
-    button, isOn,
+    button,
+    isOn,
     shown(own) {
       hasOwnColours = own;
       if (own && clicked && isOn()) pick(clicked);
     },
-    end: () => { if (isOn()) turn(false); },
+    end: () => {
+      if (isOn()) turn(false);
+    },
   };
 }
 
@@ -195,8 +314,13 @@ function hsv([red, green, blue]) {
   const [high, low] = [Math.max(red, green, blue), Math.min(red, green, blue)];
   const spread = high - low;
   if (!spread) return [0, 0, high / 255];
-  const sixth = high === red ? (green - blue) / spread : high === green ? 2 + (blue - red) / spread : 4 + (red - green) / spread;
-  return [((sixth / 6) % 1 + 1) % 1, spread / high, high / 255];
+  const sixth =
+    high === red
+      ? (green - blue) / spread
+      : high === green
+        ? 2 + (blue - red) / spread
+        : 4 + (red - green) / spread;
+  return [(((sixth / 6) % 1) + 1) % 1, spread / high, high / 255];
 }
 
 function pixelsAround({ image, size }, place) {
@@ -206,7 +330,9 @@ function pixelsAround({ image, size }, place) {
   const pen = canvas.getContext("2d", { willReadFrequently: true });
   pen.drawImage(image, Math.round(x) - RADIUS, Math.round(y) - RADIUS, side, side, 0, 0, side, side);
   const { data } = pen.getImageData(0, 0, side, side);
-  return Array.from({ length: side * side }, (_, index) => [...data.subarray(4 * index, 4 * index + 4)]).filter(([, , , alpha]) => alpha === 255);
+  return Array.from({ length: side * side }, (_, index) => [
+    ...data.subarray(4 * index, 4 * index + 4),
+  ]).filter(([, , , alpha]) => alpha === 255);
 }
 
 const share = (sorted, at) => sorted[Math.round(at * (sorted.length - 1))];
@@ -222,12 +348,18 @@ export function rangeOf(pixels) {
   const middle = share(ascending(all.map(([, saturation]) => saturation)), 0.5);
   if (!all.length || middle < LEAST) return null;
   // Hues are compared as turns from the mean direction: red lies on both ends of the circle.
-  const [sin, cos] = [Math.sin, Math.cos].map((act) => all.reduce((sum, [hue, saturation]) => sum + saturation * act(2 * Math.PI * hue), 0));
+  const [sin, cos] = [Math.sin, Math.cos].map((act) =>
+    all.reduce((sum, [hue, saturation]) => sum + saturation * act(2 * Math.PI * hue), 0),
+  );
   const mean = Math.atan2(sin, cos) / (2 * Math.PI);
-  const turns = ascending(all.map(([hue]) => ((hue - mean + 0.5) % 1 + 1) % 1 - 0.5));
+  const turns = ascending(all.map(([hue]) => ((((hue - mean + 0.5) % 1) + 1) % 1) - 0.5));
   const around = (hue) => Number((((hue % 1) + 1) % 1).toFixed(4));
   const least = (index) => Number((SHARE * share(ascending(all.map((one) => one[index])), 0.2)).toFixed(3));
-  return { hue: [around(mean + share(turns, 0.1) - HUE_ROOM), around(mean + share(turns, 0.9) + HUE_ROOM)], saturation: least(1), value: least(2) };
+  return {
+    hue: [around(mean + share(turns, 0.1) - HUE_ROOM), around(mean + share(turns, 0.9) + HUE_ROOM)],
+    saturation: least(1),
+    value: least(2),
+  };
 }
 
 /** The range of the colour at a place of a `pictureView`. */

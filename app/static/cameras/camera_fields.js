@@ -34,16 +34,29 @@ export function shareField(name, help, changed) {
 
 const LIMITS = [
   {
-    key: "least_area", name: "Least area, px²", max: 1e7, factor: 1, decimals: 0,
+    key: "least_area",
+    name: "Least area, px²",
+    max: 1e7,
+    factor: 1,
+    decimals: 0,
     help: "The studio does not take a smaller spot of colour as a foot",
   },
   {
-    key: "most_area", name: "Largest area, px²", max: 1e7, factor: 1, decimals: 0,
+    key: "most_area",
+    name: "Largest area, px²",
+    max: 1e7,
+    factor: 1,
+    decimals: 0,
     help: "The studio does not take a larger spot of colour as a foot",
   },
   {
-    key: "least_fill", name: "Least fill, %", max: 100, factor: 100, decimals: 0,
-    help: "A foot must fill at least this percentage of the smallest circle around it. "
+    key: "least_fill",
+    name: "Least fill, %",
+    max: 100,
+    factor: 100,
+    decimals: 0,
+    help:
+      "A foot must fill at least this percentage of the smallest circle around it. "
       + "A round sole fills nearly 100 %",
   },
 ];
@@ -51,8 +64,18 @@ const LIMITS = [
 /** Limits on area and fill; `changed` is told what is new. */
 export function limitFields(changed) {
   const fields = LIMITS.map(({ key, name, help, max, factor }) => {
-    const input = h("input", { type: "number", min: "0", max: String(max), step: "any", required: true, "aria-label": name, title: help });
-    input.addEventListener("change", () => { if (input.checkValidity()) changed({ [key]: input.valueAsNumber / factor }); });
+    const input = h("input", {
+      type: "number",
+      min: "0",
+      max: String(max),
+      step: "any",
+      required: true,
+      "aria-label": name,
+      title: help,
+    });
+    input.addEventListener("change", () => {
+      if (input.checkValidity()) changed({ [key]: input.valueAsNumber / factor });
+    });
     return { input, label: h("label", {}, h("span", { text: name }), input) };
   });
   return {

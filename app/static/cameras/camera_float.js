@@ -37,11 +37,18 @@ function movable(element, title) {
     held = { dx: x - event.clientX, dy: y - event.clientY };
     title.setPointerCapture(event.pointerId);
   });
-  title.addEventListener("pointermove", (event) => { if (held) place(event.clientX + held.dx, event.clientY + held.dy); });
-  for (const kind of ["pointerup", "pointercancel"]) title.addEventListener(kind, () => { held = null; put(); });
+  title.addEventListener("pointermove", (event) => {
+    if (held) place(event.clientX + held.dx, event.clientY + held.dy);
+  });
+  for (const kind of ["pointerup", "pointercancel"])
+    title.addEventListener(kind, () => {
+      held = null;
+      put();
+    });
   title.addEventListener("keydown", (event) => {
     const size = { "+": 1, "=": 1, "-": -1, "−": -1 }[event.key];
-    if (size && event.target === title) element.style.width = `${Math.max(element.offsetWidth + size * STEP_PX, LEAST_PX)}px`;
+    if (size && event.target === title)
+      element.style.width = `${Math.max(element.offsetWidth + size * STEP_PX, LEAST_PX)}px`;
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
     if (!way || event.target !== title) return;
     event.preventDefault();
@@ -60,8 +67,30 @@ function build(store, id) {
   const [dot, word, name] = [h("span", { class: "dot" }), h("span", { class: "quiet" }), h("b")];
   const image = h("img", { alt: "", draggable: "false" });
   const note = h("p", { class: "quiet", role: "status" });
-  const close = h("button", { type: "button", class: "plain icon-only", "aria-label": "Close the camera's picture", on: { click: () => shut() } }, icon("close"));
-  const title = h("header", { tabindex: "0", role: "group", data: { arrows: "" }, title: "Drag here to move the picture, or press the arrow keys. Drag the corner to resize the picture, or press + and −" }, dot, name, word, close);
+  const close = h(
+    "button",
+    {
+      type: "button",
+      class: "plain icon-only",
+      "aria-label": "Close the camera's picture",
+      on: { click: () => shut() },
+    },
+    icon("close"),
+  );
+  const title = h(
+    "header",
+    {
+      tabindex: "0",
+      role: "group",
+      data: { arrows: "" },
+      title:
+        "Drag here to move the picture, or press the arrow keys. Drag the corner to resize the picture, or press + and −",
+    },
+    dot,
+    name,
+    word,
+    close,
+  );
   const element = h("section", { class: "camera-float" }, title, image, note);
   let [isClosed, streams] = [false, false];
 
@@ -70,7 +99,10 @@ function build(store, id) {
     const camera = cameras?.find((one) => one.id === id);
     if (!camera) return;
     element.setAttribute("aria-label", `Camera ${camera.name}`);
-    title.setAttribute("aria-label", `Camera ${camera.name}: the arrow keys move the picture, plus and minus resize the picture`);
+    title.setAttribute(
+      "aria-label",
+      `Camera ${camera.name}: the arrow keys move the picture, plus and minus resize the picture`,
+    );
     setText(name, camera.name);
     dot.dataset.tone = cameraTone(camera);
     setText(word, cameraLabel(camera));
@@ -91,7 +123,9 @@ function build(store, id) {
   }
 
   // The stream ends where the camera is unplugged; the next event that says it is back begins another one.
-  image.addEventListener("error", () => { streams = false; });
+  image.addEventListener("error", () => {
+    streams = false;
+  });
   movable(element, title);
   store.watch(({ cameras }) => [cameras], follow);
   return { id, element, shut };

@@ -11,15 +11,27 @@ const around = (degrees) => ((degrees % CIRCLE) + CIRCLE) % CIRCLE;
 
 /** The pieces of the strip that a range leaves out, as shares from left to right. */
 function leftOut([low, high]) {
-  return low <= high ? [[0, low], [high, 1]] : [[high, low], [0, 0]];
+  return low <= high
+    ? [
+        [0, low],
+        [high, 1],
+      ]
+    : [
+        [high, low],
+        [0, 0],
+      ];
 }
 
 function end(strip, { read, moving, moved }) {
-  const title = "Drag this end of the hue range. "
-    + "The arrow keys move this end by 1°, with Shift by 10°";
+  const title = "Drag this end of the hue range. " + "The arrow keys move this end by 1°, with Shift by 10°";
   const element = h("div", {
-    class: "hue-end", role: "slider", tabindex: "0", "aria-valuemin": "0", "aria-valuemax": String(CIRCLE),
-    data: { arrows: "", keys: "" }, title,
+    class: "hue-end",
+    role: "slider",
+    tabindex: "0",
+    "aria-valuemin": "0",
+    "aria-valuemax": String(CIRCLE),
+    data: { arrows: "", keys: "" },
+    title,
   });
   const set = (degrees, last) => (last ? moved : moving)(around(degrees) / CIRCLE);
   let held = false;
@@ -75,14 +87,30 @@ export function hueRange(changed) {
     show(range, owner);
     changed(range, last);
   };
-  const ends = [0, 1].map((index) => end(strip, { read: () => range[index], moving: (share) => change(index, share, false), moved: (share) => change(index, share, true) }));
-  const element = h("div", { class: "hue", role: "group" }, h("div", { class: "hue-words" }, h("span", { text: "Hue" }), words), strip);
+  const ends = [0, 1].map((index) =>
+    end(strip, {
+      read: () => range[index],
+      moving: (share) => change(index, share, false),
+      moved: (share) => change(index, share, true),
+    }),
+  );
+  const element = h(
+    "div",
+    { class: "hue", role: "group" },
+    h("div", { class: "hue-words" }, h("span", { text: "Hue" }), words),
+    strip,
+  );
   strip.append(...ends.map(({ element }) => element));
 
   function show(next, name) {
     [range, owner] = [[...next], name];
     element.setAttribute("aria-label", `${name}, hue`);
-    leftOut(range).forEach(([from, to], index) => Object.assign(masks[index].style, { left: `${from * 100}%`, width: `${Math.max(0, to - from) * 100}%` }));
+    leftOut(range).forEach(([from, to], index) =>
+      Object.assign(masks[index].style, {
+        left: `${from * 100}%`,
+        width: `${Math.max(0, to - from) * 100}%`,
+      }),
+    );
     ends.forEach((one, index) => one.show(range[index], `${name}, hue ${["from", "to"][index]}`));
     words.textContent = `${fixed(range[0] * CIRCLE, 0)}° to ${fixed(range[1] * CIRCLE, 0)}°`;
   }

@@ -1,6 +1,11 @@
 /** The lens: pictures of a checkerboard, which of them show it, how well they agree, and the picture straightened. */
 
-import { LEAST_CHECKERBOARDS, checkerboardBook, checkerboardRow, checkerboardSources } from "./camera_checkerboards.js";
+import {
+  LEAST_CHECKERBOARDS,
+  checkerboardBook,
+  checkerboardRow,
+  checkerboardSources,
+} from "./camera_checkerboards.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { announce, attempt } from "../lib/toasts.js";
@@ -11,18 +16,29 @@ const SHARP_PX = 1;
 const UNREADABLE = "The page cannot load the picture, so it does not show the straightened picture.";
 
 function cornersField(name, value, changed) {
-  const input = h("input", { type: "number", ...FIELD, value: String(value), "aria-label": name, title: "An inner corner is a point where four squares meet. A side with 9 squares has 8 inner corners" });
+  const input = h("input", {
+    type: "number",
+    ...FIELD,
+    value: String(value),
+    "aria-label": name,
+    title: "An inner corner is a point where four squares meet. A side with 9 squares has 8 inner corners",
+  });
   input.addEventListener("change", changed);
   return { input, label: h("label", {}, h("span", { text: name }), input) };
 }
 
 function lensText({ lens }) {
-  if (!lens) return "There is no lens correction. You need a lens correction if straight lines look bent "
-    + "in the picture.";
+  if (!lens)
+    return (
+      "There is no lens correction. You need a lens correction if straight lines look bent "
+      + "in the picture."
+    );
   if (lens.rms_px === null) return "The error of this lens correction is not known.";
   const from = lens.boards ? ` The lens correction is computed from ${lens.boards} pictures.` : "";
-  const advice = lens.rms_px > SHARP_PX ? ` An error above ${SHARP_PX} px is large. `
-    + "Take sharper pictures of a flat checkerboard." : "";
+  const advice =
+    lens.rms_px > SHARP_PX
+      ? ` An error above ${SHARP_PX} px is large. ` + "Take sharper pictures of a flat checkerboard."
+      : "";
   return `The RMS error of the lens correction is ${fixed(lens.rms_px, 2)} px.${from}${advice}`;
 }
 
@@ -53,7 +69,12 @@ function straightening(draft, stage) {
     /** A picture as the lens would have it, where that is wanted. */
     async of(plain) {
       if (!isOn()) return plain;
-      return (await setupApi.straight(draft.state.setup.lens, plain.startsWith("data:") ? plain : await dataOf(plain))).picture;
+      return (
+        await setupApi.straight(
+          draft.state.setup.lens,
+          plain.startsWith("data:") ? plain : await dataOf(plain),
+        )
+      ).picture;
     },
     show({ lens }) {
       const why = lens ? null : "There is no lens correction yet. Add pictures of a checkerboard first.";
@@ -66,16 +87,24 @@ function straightening(draft, stage) {
 
 /**
  * Builds the part.
- * @param {object} draft of `setupDraft`
- * @param {object} stage of `openStage`
+ * @param {Record<string, any>} draft of `setupDraft`
+ * @param {Record<string, any>} stage of `openStage`
  * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
  */
 export function lensPart(draft, stage) {
   let [isOn, shown] = [false, null];
   const list = h("ul", { class: "camera-boards", "aria-label": "Pictures searched for the checkerboard" });
-  const [status, words] = [h("p", { class: "quiet", role: "status" }), h("p", { class: "quiet", role: "status" })];
+  const [status, words] = [
+    h("p", { class: "quiet", role: "status" }),
+    h("p", { class: "quiet", role: "status" }),
+  ];
   const straight = straightening(draft, stage);
-  const without = h("button", { type: "button", class: "link", text: "Remove the lens correction", on: { click: () => draft.change({ lens: null }) } });
+  const without = h("button", {
+    type: "button",
+    class: "link",
+    text: "Remove the lens correction",
+    on: { click: () => draft.change({ lens: null }) },
+  });
 
   const book = checkerboardBook({
     changed: () => showCheckerboards(),
@@ -84,17 +113,32 @@ export function lensPart(draft, stage) {
       announce(lensText({ lens }));
     },
   });
-  const [columns, rows] = [["Inner corners, one side", "columns"], ["Inner corners, other side", "rows"]].map(([name, key]) => cornersField(name, book.corners[key], ({ target }) => {
-    if (!target.checkValidity()) return;
-    book.corners[key] = target.valueAsNumber;
-    book.clear();
-  }));
+  const [columns, rows] = [
+    ["Inner corners, one side", "columns"],
+    ["Inner corners, other side", "rows"],
+  ].map(([name, key]) =>
+    cornersField(name, book.corners[key], ({ target }) => {
+      if (!target.checkValidity()) return;
+      book.corners[key] = target.valueAsNumber;
+      book.clear();
+    }),
+  );
 
   function showCheckerboards() {
-    const actions = { remove: attempt((board) => book.remove(board)), show: (board) => { shown = { board, frame: stage.frame }; stage.refresh(); } };
+    const actions = {
+      remove: attempt((board) => book.remove(board)),
+      show: (board) => {
+        shown = { board, frame: stage.frame };
+        stage.refresh();
+      },
+    };
     list.replaceChildren(...book.boards.map((board) => checkerboardRow(board, book.rmsOf(board), actions)));
     const count = book.boards.filter(({ found }) => found).length;
-    if (book.boards.length && count < LEAST_CHECKERBOARDS) setText(words, `The checkerboard was found in ${count} of ${book.boards.length} pictures. At least ${LEAST_CHECKERBOARDS} pictures must show the whole checkerboard, flat and sharp.`);
+    if (book.boards.length && count < LEAST_CHECKERBOARDS)
+      setText(
+        words,
+        `The checkerboard was found in ${count} of ${book.boards.length} pictures. At least ${LEAST_CHECKERBOARDS} pictures must show the whole checkerboard, flat and sharp.`,
+      );
     else show(draft.state);
   }
 
@@ -109,11 +153,31 @@ export function lensPart(draft, stage) {
     return straight.of(shown?.board.picture ?? pictureOf(stage.source, frame));
   }
 
-  draft.watch(({ setup }) => [setup.lens], (state) => { if (isOn) { showCheckerboards(); show(state); } });
+  draft.watch(
+    ({ setup }) => [setup.lens],
+    (state) => {
+      if (isOn) {
+        showCheckerboards();
+        show(state);
+      }
+    },
+  );
   return {
-    element: h("div", { class: "camera-part" },
-      h("p", { class: "quiet", text: "A wide-angle lens bends straight lines in the picture. To correct the picture, add pictures of a checkerboard at different places and angles. To skip the lens correction, open Place." }),
-      columns.label, rows.label, checkerboardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight.button, without)),
+    element: h(
+      "div",
+      { class: "camera-part" },
+      h("p", {
+        class: "quiet",
+        text: "A wide-angle lens bends straight lines in the picture. To correct the picture, add pictures of a checkerboard at different places and angles. To skip the lens correction, open Place.",
+      }),
+      columns.label,
+      rows.label,
+      checkerboardSources(stage, book, status),
+      status,
+      list,
+      words,
+      h("div", { class: "camera-row" }, straight.button, without),
+    ),
     enter() {
       isOn = true;
       showCheckerboards();

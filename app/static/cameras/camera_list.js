@@ -12,8 +12,8 @@ import { openStage } from "../pictures/picture_stage.js";
 import "../pictures/picture_style.js";
 
 const LOOK_WIDTH = 1280;
-const HELP = "Plug in a camera. "
-  + "To use a video file instead, start the studio with the option --camera NAME=FILE.";
+const HELP =
+  "Plug in a camera. " + "To use a video file instead, start the studio with the option --camera NAME=FILE.";
 
 /** Puts a camera that the server sent into the page's state. */
 function accept(store, camera) {
@@ -23,7 +23,19 @@ function accept(store, camera) {
 function recordSwitch(change) {
   const input = h("input", { type: "checkbox", role: "switch" });
   input.addEventListener("change", () => change({ records: input.checked }));
-  return { input, label: h("label", { class: "tick", title: "Records a video of each run. If the camera is under the platform, the studio makes a trial from the video" }, input, "Record each run") };
+  return {
+    input,
+    label: h(
+      "label",
+      {
+        class: "tick",
+        title:
+          "Records a video of each run. If the camera is under the platform, the studio makes a trial from the video",
+      },
+      input,
+      "Record each run",
+    ),
+  };
 }
 
 /** One camera's line; it is changed in place, so that what is focused stays so. */
@@ -36,24 +48,49 @@ function cameraRow(store, id, { watch, setUp }) {
       show(now(), store.state.setups ?? []);
     }
   });
-  const [dot, name, word, sentence] = [h("span", { class: "dot" }), h("b"), h("span", { class: "word" }), h("p", { class: "why" })];
-  const useHelp = "Where the camera is. With a camera under the platform, the studio tracks the feet. "
+  const [dot, name, word, sentence] = [
+    h("span", { class: "dot" }),
+    h("b"),
+    h("span", { class: "word" }),
+    h("p", { class: "why" }),
+  ];
+  const useHelp =
+    "Where the camera is. With a camera under the platform, the studio tracks the feet. "
     + "With a camera at the side, the studio only shows and records the picture";
   const use = h("select", { title: useHelp }, ...USES.map(([value, text]) => h("option", { value, text })));
-  const setup = h("select", { title: "The setup of this camera: the lens correction, the place of the "
-    + "platform in the picture and the colours of the feet" });
+  const setup = h("select", {
+    title:
+      "The setup of this camera: the lens correction, the place of the "
+      + "platform in the picture and the colours of the feet",
+  });
   const records = recordSwitch(change);
   use.addEventListener("change", () => change({ use: use.value }));
   setup.addEventListener("change", () => change({ setup: setup.value }));
-  const button = (text, title, act) => h("button", { type: "button", class: "link", text, title, on: { click: act } });
+  const button = (text, title, act) =>
+    h("button", { type: "button", class: "link", text, title, on: { click: act } });
   const setupLine = h("label", {}, h("span", { text: "Setup" }), setup);
-  const adjust = button("Set up…", "Opens the live picture of the camera. There you set the lens correction, "
-    + "the place of the platform and the colours of the feet", () => setUp(now()));
-  const looking = button("Look", "Shows the live picture and marks the feet that the studio finds",
-    () => watch(now()));
-  const float = button("Beside the scene", "Shows the live picture in a corner of the 3D scene", () => toggleFloat(store, id));
-  const element = h("li", { class: "camera" }, h("div", { class: "run-line" }, dot, name, word), sentence,
-    h("label", {}, h("span", { text: "Seen" }), use), setupLine, records.label, h("div", { class: "camera-row" }, looking, float, adjust));
+  const adjust = button(
+    "Set up…",
+    "Opens the live picture of the camera. There you set the lens correction, "
+      + "the place of the platform and the colours of the feet",
+    () => setUp(now()),
+  );
+  const looking = button("Look", "Shows the live picture and marks the feet that the studio finds", () =>
+    watch(now()),
+  );
+  const float = button("Beside the scene", "Shows the live picture in a corner of the 3D scene", () =>
+    toggleFloat(store, id),
+  );
+  const element = h(
+    "li",
+    { class: "camera" },
+    h("div", { class: "run-line" }, dot, name, word),
+    sentence,
+    h("label", {}, h("span", { text: "Seen" }), use),
+    setupLine,
+    records.label,
+    h("div", { class: "camera-row" }, looking, float, adjust),
+  );
 
   function show(camera, setups) {
     dot.dataset.tone = cameraTone(camera);
@@ -62,7 +99,11 @@ function cameraRow(store, id, { watch, setUp }) {
     setText(word, cameraLabel(camera));
     setText(sentence, camera.state === "unplugged" ? camera.sentence : "");
     use.value = camera.use;
-    [[use, "seen"], [setup, "setup"], [records.input, "record each run"]].forEach(([one, text]) => one.setAttribute("aria-label", `${camera.name}, ${text}`));
+    [
+      [use, "seen"],
+      [setup, "setup"],
+      [records.input, "record each run"],
+    ].forEach(([one, text]) => one.setAttribute("aria-label", `${camera.name}, ${text}`));
     const options = [["", "none yet"], ...setups.map((one) => [one.id, one.setup.name])];
     if (setup.dataset.options !== JSON.stringify(options)) {
       setup.dataset.options = JSON.stringify(options);
@@ -71,37 +112,48 @@ function cameraRow(store, id, { watch, setUp }) {
     setup.value = camera.setup;
     [setupLine.hidden, adjust.hidden] = [camera.use !== "under", camera.use !== "under"];
     records.input.checked = camera.records;
-    for (const one of [looking, adjust, float]) one.hidden = camera.state === "unplugged" || (one === adjust && camera.use !== "under");
+    for (const one of [looking, adjust, float])
+      one.hidden = camera.state === "unplugged" || (one === adjust && camera.use !== "under");
   }
   return { element, show };
 }
 
 /**
  * Builds the list; it follows the server's events.
- * @param {object} store
- * @param {{watch: (camera: object) => void, setUp: (camera: object) => void}} acts
+ * @param {import("../state/store.js").Store} store
+ * @param {{watch: (camera: Record<string, any>) => void, setUp: (camera: Record<string, any>) => void}} acts
  */
 export function cameraList(store, actions) {
   const list = h("ul", { class: "camera-list", role: "list", "aria-label": "Cameras" });
   const empty = h("p", { class: "teach", text: `The studio has no camera. ${HELP}`, hidden: true });
   const rows = new Map();
 
-  store.watch(({ cameras, setups }) => [cameras, setups], ({ cameras, setups }) => {
-    if (!cameras) return;
-    empty.hidden = cameras.length > 0;
-    for (const [id, row] of rows) if (!cameras.some((camera) => camera.id === id)) { row.element.remove(); rows.delete(id); }
-    cameras.forEach((camera) => {
-      if (!rows.has(camera.id)) {
-        rows.set(camera.id, cameraRow(store, camera.id, actions));
-        list.append(rows.get(camera.id).element);
-      }
-      rows.get(camera.id).show(camera, setups ?? []);
-    });
-  });
-  return { element: h("div", { class: "cameras" }, list, empty), refresh: attempt(async () => {
-    const [cameras, { setups }] = await Promise.all([cameraApi.list(), setupApi.list()]);
-    store.set({ cameras, setups });
-  }) };
+  store.watch(
+    ({ cameras, setups }) => [cameras, setups],
+    ({ cameras, setups }) => {
+      if (!cameras) return;
+      empty.hidden = cameras.length > 0;
+      for (const [id, row] of rows)
+        if (!cameras.some((camera) => camera.id === id)) {
+          row.element.remove();
+          rows.delete(id);
+        }
+      cameras.forEach((camera) => {
+        if (!rows.has(camera.id)) {
+          rows.set(camera.id, cameraRow(store, camera.id, actions));
+          list.append(rows.get(camera.id).element);
+        }
+        rows.get(camera.id).show(camera, setups ?? []);
+      });
+    },
+  );
+  return {
+    element: h("div", { class: "cameras" }, list, empty),
+    refresh: attempt(async () => {
+      const [cameras, { setups }] = await Promise.all([cameraApi.list(), setupApi.list()]);
+      store.set({ cameras, setups });
+    }),
+  };
 }
 
 /** Opens a camera's setup on its live picture; a camera without one gets a new one. */
@@ -110,14 +162,42 @@ export const setUpCamera = attempt(async (page, camera) => {
   const answer = camera.setup ? await setupApi.read(camera.setup) : await newSetup();
   if (!camera.setup) accept(page.store, await cameraApi.change(camera.id, { setup: answer.id }));
   if (isOld()) return;
-  openSetup(page, { answer, source: cameraSource(camera), back: { text: "Cameras", act: () => openCameras(page) } });
+  openSetup(page, {
+    answer,
+    source: cameraSource(camera),
+    back: { text: "Cameras", act: () => openCameras(page) },
+  });
 });
 
 function feetList() {
   const rows = FOOT_NAMES.map((name, index) => ({ words: h("span", { class: "number" }), name, index }));
   return {
-    element: h("ul", { class: "camera-feet", "aria-label": "Feet in this picture" }, ...rows.map(({ words, name, index }) => h("li", { data: { foot: index + 1 } }, h("i", { class: "foot-dot", "aria-hidden": "true" }), h("span", { text: name }), words))),
-    show: (feet) => rows.forEach(({ words }, index) => setText(words, feet === null ? "" : !feet[index] ? "not seen" : feet[index].place_cm ? `${fixed(feet[index].place_cm[0], 1)}, ${fixed(feet[index].place_cm[1], 1)} cm` : "seen")),
+    element: h(
+      "ul",
+      { class: "camera-feet", "aria-label": "Feet in this picture" },
+      ...rows.map(({ words, name, index }) =>
+        h(
+          "li",
+          { data: { foot: index + 1 } },
+          h("i", { class: "foot-dot", "aria-hidden": "true" }),
+          h("span", { text: name }),
+          words,
+        ),
+      ),
+    ),
+    show: (feet) =>
+      rows.forEach(({ words }, index) =>
+        setText(
+          words,
+          feet === null
+            ? ""
+            : !feet[index]
+              ? "not seen"
+              : feet[index].place_cm
+                ? `${fixed(feet[index].place_cm[0], 1)}, ${fixed(feet[index].place_cm[1], 1)} cm`
+                : "seen",
+        ),
+      ),
   };
 }
 
@@ -128,7 +208,10 @@ export const watchCamera = attempt(async (page, camera) => {
   if (isOld()) return;
   const [feet, words] = [feetList(), h("p")];
   const stage = openStage(cameraSource(camera), 0, lost);
-  const standing = camera.use === "under" && !camera.setup ? "This camera has no setup, so the studio cannot find the feet." : "This is the live picture of the camera.";
+  const standing =
+    camera.use === "under" && !camera.setup
+      ? "This camera has no setup, so the studio cannot find the feet."
+      : "This is the live picture of the camera.";
 
   function lost(why) {
     words.className = why === null ? "quiet" : "why";
@@ -139,14 +222,24 @@ export const watchCamera = attempt(async (page, camera) => {
     feet.show(null);
   }
   lost(null);
-  const end = page.store.watch(({ cameras }) => [cameras], ({ cameras }) => {
-    const now = cameras?.find(({ id }) => id === camera.id);
-    stage.away(now?.state === "unplugged" ? now.sentence : null);
-  });
+  const end = page.store.watch(
+    ({ cameras }) => [cameras],
+    ({ cameras }) => {
+      const now = cameras?.find(({ id }) => id === camera.id);
+      stage.away(now?.state === "unplugged" ? now.sentence : null);
+    },
+  );
   if (kept) {
     const { setup, view } = kept;
     stage.fetches(async () => {
-      const answer = await look(stage.source, 0, { foot: null, colours: setup.colours, limits: setup.limits, shows: "plain", setup: view ? setup : null, most: LOOK_WIDTH });
+      const answer = await look(stage.source, 0, {
+        foot: null,
+        colours: setup.colours,
+        limits: setup.limits,
+        shows: "plain",
+        setup: view ? setup : null,
+        most: LOOK_WIDTH,
+      });
       await stage.picture.show(answer.picture, answer.size);
       if (stage.isAway) return null;
       drawFeet(stage.picture.drawing, answer.feet);
@@ -154,14 +247,37 @@ export const watchCamera = attempt(async (page, camera) => {
       return null;
     });
   } else feet.element.hidden = true;
-  page.show(h("div", { class: "trial-form" }, h("button", { type: "button", class: "link", text: "Cameras", on: { click: () => openCameras(page) } }),
-    h("div", { class: "run-line run-title" }, h("b", { text: camera.name })), words, feet.element), () => { end(); stage.close(); });
+  page.show(
+    h(
+      "div",
+      { class: "trial-form" },
+      h("button", { type: "button", class: "link", text: "Cameras", on: { click: () => openCameras(page) } }),
+      h("div", { class: "run-line run-title" }, h("b", { text: camera.name })),
+      words,
+      feet.element,
+    ),
+    () => {
+      end();
+      stage.close();
+    },
+  );
 });
 
 /** Opens the cameras in the trials' panel. */
 export function openCameras(page) {
   page.begin();
-  const list = cameraList(page.store, { watch: (camera) => watchCamera(page, camera), setUp: (camera) => setUpCamera(page, camera) });
-  page.show(h("div", { class: "trial-form" }, h("button", { type: "button", class: "link", text: "All trials", on: { click: page.all } }), h("h3", { text: "Cameras" }), list.element));
+  const list = cameraList(page.store, {
+    watch: (camera) => watchCamera(page, camera),
+    setUp: (camera) => setUpCamera(page, camera),
+  });
+  page.show(
+    h(
+      "div",
+      { class: "trial-form" },
+      h("button", { type: "button", class: "link", text: "All trials", on: { click: page.all } }),
+      h("h3", { text: "Cameras" }),
+      list.element,
+    ),
+  );
   list.refresh();
 }

@@ -6,25 +6,36 @@ import { columnHeads } from "../lib/tables.js";
 import { picturePoints } from "../pictures/picture_points.js";
 
 const MOST_POINTS = 200;
-const SQUARE = [[-5, -5], [5, -5], [5, 5], [-5, 5]];
+const SQUARE = [
+  [-5, -5],
+  [5, -5],
+  [5, 5],
+  [-5, 5],
+];
 const ROUGH_MM = 1;
-const HELP = "Click points on the platform whose x and y you know. From these points the studio computes "
+const HELP =
+  "Click points on the platform whose x and y you know. From these points the studio computes "
   + "where the platform is in the picture. A magnifier helps you to aim. "
   + "The arrow keys move the selected point by one pixel.";
 
 const PRESETS = {
   square: {
-    text: "10 cm square, centred", places: SQUARE,
-    help: "Click the four corners of a 10 cm square around the platform's centre. "
+    text: "10 cm square, centred",
+    places: SQUARE,
+    help:
+      "Click the four corners of a 10 cm square around the platform's centre. "
       + "Each corner is 5 cm from the centre along x and along y",
   },
   corner: {
-    text: "10 cm square, corner", places: SQUARE.map(([x, y]) => [x + 5, y + 5]),
+    text: "10 cm square, corner",
+    places: SQUARE.map(([x, y]) => [x + 5, y + 5]),
     help: "Click the four corners of a 10 cm square. The first corner is the origin, x = 0 and y = 0",
   },
   grid: {
-    text: "etched 1 cm grid", places: null,
-    help: "Click crossings of grid lines and type their x and y. "
+    text: "etched 1 cm grid",
+    places: null,
+    help:
+      "Click crossings of grid lines and type their x and y. "
       + "From the fifth point on, the studio proposes x and y",
   },
 };
@@ -42,41 +53,57 @@ function proposal(preset, points, pixel) {
 
 function asking(preset, points) {
   const { places } = PRESETS[preset];
-  if (places && points.length < places.length) return `Click the corner at ${written(places[points.length])}.`;
-  if (points.length < 4) return `Click a crossing of grid lines, then type its x and y into the table. Points still needed: ${4 - points.length}.`;
+  if (places && points.length < places.length)
+    return `Click the corner at ${written(places[points.length])}.`;
+  if (points.length < 4)
+    return `Click a crossing of grid lines, then type its x and y into the table. Points still needed: ${4 - points.length}.`;
   return "To make the fit more exact, click more points whose x and y you know.";
 }
 
 function drawGrid(drawing, { setup, answer }) {
-  const polyline = (className, line) => svg("polyline", { class: className, points: line.map((place) => place.join(",")).join(" ") });
+  const polyline = (className, line) =>
+    svg("polyline", { class: className, points: line.map((place) => place.join(",")).join(" ") });
   const view = answer.view;
-  const lines = view?.grid ? view.grid.map(({ at_cm: at, line }) => polyline(at === 0 ? "camera-axis" : "camera-grid", line))
-    : view ? [polyline("camera-axis", [...view.outline, view.outline[0]])] : [];
-  const off = (view?.seen ?? []).map((seen, index) => setup.points[index] && polyline("camera-off", [setup.points[index].pixel, seen])).filter(Boolean);
+  const lines = view?.grid
+    ? view.grid.map(({ at_cm: at, line }) => polyline(at === 0 ? "camera-axis" : "camera-grid", line))
+    : view
+      ? [polyline("camera-axis", [...view.outline, view.outline[0]])]
+      : [];
+  const off = (view?.seen ?? [])
+    .map((seen, index) => setup.points[index] && polyline("camera-off", [setup.points[index].pixel, seen]))
+    .filter(Boolean);
   drawing.replaceChildren(...lines, ...off);
 }
 
 /** Names the ends of the axes, so that it is seen which way x and y go. */
 function axisNames(picture) {
-  const names = ["x", "y"].map((axis) => ({ axis, place: null, element: h("span", { class: "camera-axis-name", text: `+${axis}`, hidden: true }) }));
+  const names = ["x", "y"].map((axis) => ({
+    axis,
+    place: null,
+    element: h("span", { class: "camera-axis-name", text: `+${axis}`, hidden: true }),
+  }));
   picture.layer.append(...names.map(({ element }) => element));
-  const put = () => names.forEach(({ element, place }) => {
-    element.hidden = !place;
-    if (!place) return;
-    const [x, y] = picture.toScreen(place);
-    element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-  });
+  const put = () =>
+    names.forEach(({ element, place }) => {
+      element.hidden = !place;
+      if (!place) return;
+      const [x, y] = picture.toScreen(place);
+      element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    });
   picture.onView(put);
   return (grid) => {
     // The line y = 0 runs along x.
-    for (const name of names) name.place = grid?.find((one) => one.axis !== name.axis && one.at_cm === 0)?.line.at(-1) ?? null;
+    for (const name of names)
+      name.place = grid?.find((one) => one.axis !== name.axis && one.at_cm === 0)?.line.at(-1) ?? null;
     put();
   };
 }
 
 function fitText({ view }, count) {
-  if (!view) return count < 4 ? "" : "The studio cannot compute the place of the platform from these points. "
-    + "Move one of the points.";
+  if (!view)
+    return count < 4
+      ? ""
+      : "The studio cannot compute the place of the platform from these points. " + "Move one of the points.";
   const scale = `One pixel shows ${fixed(view.mm_per_pixel, 2)} mm of the platform.`;
   const fourth = "Four points always fit exactly. To see the error of the fit, click a fifth point.";
   if (count === 4) return `${fourth} ${scale}`;
@@ -86,20 +113,47 @@ function fitText({ view }, count) {
 /** The points as a table with editable places. */
 function pointTable({ change, remove, choose }) {
   const body = h("tbody");
-  const element = h("table", { class: "run-table camera-points", hidden: true }, h("caption", { text: "Points" }),
-    h("thead", {}, h("tr", {}, ...columnHeads(["", "x, cm", "y, cm", "off, mm", ""]))), body);
+  const element = h(
+    "table",
+    { class: "run-table camera-points", hidden: true },
+    h("caption", { text: "Points" }),
+    h("thead", {}, h("tr", {}, ...columnHeads(["", "x, cm", "y, cm", "off, mm", ""]))),
+    body,
+  );
   let rows = [];
 
   function row(index) {
     const inputs = ["x", "y"].map((axis, at) => {
-      const input = h("input", { type: "number", step: "any", min: "-500", max: "500", required: true, "aria-label": `Point ${index + 1}, ${axis}, cm` });
-      input.addEventListener("change", () => { if (input.checkValidity()) change(index, at, input.valueAsNumber); });
+      const input = h("input", {
+        type: "number",
+        step: "any",
+        min: "-500",
+        max: "500",
+        required: true,
+        "aria-label": `Point ${index + 1}, ${axis}, cm`,
+      });
+      input.addEventListener("change", () => {
+        if (input.checkValidity()) change(index, at, input.valueAsNumber);
+      });
       input.addEventListener("focus", () => choose(index));
       return input;
     });
     const off = h("td", { class: "number" });
-    const out = h("button", { type: "button", class: "link", text: "Remove", "aria-label": `Remove point ${index + 1}`, on: { click: () => remove(index) } });
-    const element = h("tr", {}, h("th", { scope: "row", text: String(index + 1) }), ...inputs.map((input) => h("td", {}, input)), off, h("td", {}, out));
+    const out = h("button", {
+      type: "button",
+      class: "link",
+      text: "Remove",
+      "aria-label": `Remove point ${index + 1}`,
+      on: { click: () => remove(index) },
+    });
+    const element = h(
+      "tr",
+      {},
+      h("th", { scope: "row", text: String(index + 1) }),
+      ...inputs.map((input) => h("td", {}, input)),
+      off,
+      h("td", {}, out),
+    );
     return { element, inputs, off };
   }
 
@@ -110,7 +164,9 @@ function pointTable({ change, remove, choose }) {
       while (rows.length > points.length) rows.pop().element.remove();
       points.forEach(({ place_cm: place }, index) => {
         if (!rows[index]) body.append((rows[index] = row(index)).element);
-        rows[index].inputs.forEach((input, at) => { if (input !== document.activeElement || input.validity.valid) input.value = String(place[at]); });
+        rows[index].inputs.forEach((input, at) => {
+          if (input !== document.activeElement || input.validity.valid) input.value = String(place[at]);
+        });
         setText(rows[index].off, offs?.[index] === undefined ? "–" : fixed(offs[index], 2));
         rows[index].off.toggleAttribute("data-rough", offs?.[index] > ROUGH_MM);
       });
@@ -124,14 +180,26 @@ const rounded = (pixel) => pixel.map((value) => Number(value.toFixed(2)));
 
 /**
  * Builds the part.
- * @param {object} draft of `setupDraft`
- * @param {object} stage of `openStage`
+ * @param {Record<string, any>} draft of `setupDraft`
+ * @param {Record<string, any>} stage of `openStage`
  * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
  */
 export function placePart(draft, stage) {
-  const preset = h("select", { "aria-label": "Points are" }, ...Object.entries(PRESETS).map(([value, { text, help }]) => h("option", { value, text, title: help })));
-  const [ask, fit] = [h("p", { class: "camera-ask", role: "status" }), h("p", { class: "quiet", role: "status" })];
-  const clear = h("button", { type: "button", class: "link", text: "Remove all points", on: { click: () => draft.change({ points: [] }) } });
+  const preset = h(
+    "select",
+    { "aria-label": "Points are" },
+    ...Object.entries(PRESETS).map(([value, { text, help }]) => h("option", { value, text, title: help })),
+  );
+  const [ask, fit] = [
+    h("p", { class: "camera-ask", role: "status" }),
+    h("p", { class: "quiet", role: "status" }),
+  ];
+  const clear = h("button", {
+    type: "button",
+    class: "link",
+    text: "Remove all points",
+    on: { click: () => draft.change({ points: [] }) },
+  });
   const showAxes = axisNames(stage.picture);
   let isOn = false;
 
@@ -145,8 +213,12 @@ export function placePart(draft, stage) {
   const remove = (index) => put(points().filter((_, at) => at !== index));
 
   const table = pointTable({
-    change: (index, axis, value) => put(replaced(index, { place_cm: points()[index].place_cm.map((one, at) => (at === axis ? value : one)) })),
-    remove, choose: (index) => table.mark(index),
+    change: (index, axis, value) =>
+      put(
+        replaced(index, { place_cm: points()[index].place_cm.map((one, at) => (at === axis ? value : one)) }),
+      ),
+    remove,
+    choose: (index) => table.mark(index),
   });
   const marks = picturePoints(stage.picture, {
     add(pixel) {
@@ -155,7 +227,8 @@ export function placePart(draft, stage) {
       if (preset.value === "grid") queueMicrotask(() => table.focus(points().length - 1));
     },
     move: (index, pixel, last) => put(replaced(index, { pixel: rounded(pixel) }), last),
-    remove, chosen: (index) => table.mark(index),
+    remove,
+    chosen: (index) => table.mark(index),
   });
 
   function show({ setup, answer }) {
@@ -172,9 +245,16 @@ export function placePart(draft, stage) {
   preset.addEventListener("change", () => show(draft.state));
   draft.watch(({ setup, answer }) => [setup, answer], show);
   return {
-    element: h("div", { class: "camera-part" },
+    element: h(
+      "div",
+      { class: "camera-part" },
       h("p", { class: "quiet", text: HELP }),
-      h("label", {}, h("span", { text: "Points are" }), preset), ask, table.element, fit, clear),
+      h("label", {}, h("span", { text: "Points are" }), preset),
+      ask,
+      table.element,
+      fit,
+      clear,
+    ),
     enter() {
       isOn = true;
       marks.allow(true);
@@ -199,7 +279,12 @@ function solved(matrix, right) {
   const rows = matrix.map((row, index) => [...row, right[index]]);
   const size = rows.length;
   for (let column = 0; column < size; column += 1) {
-    const pivot = rows.slice(column).reduce((best, row, index) => (Math.abs(row[column]) > Math.abs(rows[best][column]) ? index + column : best), column);
+    const pivot = rows
+      .slice(column)
+      .reduce(
+        (best, row, index) => (Math.abs(row[column]) > Math.abs(rows[best][column]) ? index + column : best),
+        column,
+      );
     [rows[column], rows[pivot]] = [rows[pivot], rows[column]];
     if (Math.abs(rows[column][column]) < SINGULAR) return null;
     for (let other = 0; other < size; other += 1) {
@@ -215,7 +300,10 @@ function solved(matrix, right) {
 function equations(points, scale) {
   return points.flatMap(({ pixel, place_cm: [x, y] }) => {
     const [u, v] = pixel.map((value) => value / scale);
-    return [{ row: [u, v, 1, 0, 0, 0, -x * u, -x * v], value: x }, { row: [0, 0, 0, u, v, 1, -y * u, -y * v], value: y }];
+    return [
+      { row: [u, v, 1, 0, 0, 0, -x * u, -x * v], value: x },
+      { row: [0, 0, 0, u, v, 1, -y * u, -y * v], value: y },
+    ];
   });
 }
 
@@ -230,8 +318,13 @@ export function guessPlace(points, pixel) {
   const scale = Math.max(...points.flatMap((one) => one.pixel.map(Math.abs)), 1);
   const all = equations(points, scale);
   const indices = Array.from({ length: UNKNOWNS }, (_, index) => index);
-  const normal = indices.map((i) => indices.map((j) => all.reduce((sum, { row }) => sum + row[i] * row[j], 0)));
-  const view = solved(normal, indices.map((i) => all.reduce((sum, { row, value }) => sum + row[i] * value, 0)));
+  const normal = indices.map((i) =>
+    indices.map((j) => all.reduce((sum, { row }) => sum + row[i] * row[j], 0)),
+  );
+  const view = solved(
+    normal,
+    indices.map((i) => all.reduce((sum, { row, value }) => sum + row[i] * value, 0)),
+  );
   if (!view) return null;
   const [a, b, c, d, e, f, g, k] = view;
   const [u, v] = pixel.map((value) => value / scale);

@@ -11,7 +11,8 @@ import "../pictures/picture_style.js";
 export const announceTrial = attempt(async (id, open) => {
   const trial = await trialApi.read(id);
   if (!trial.run || !trial.source?.camera) return;
-  const walked = `The robot walked ${fixed(trial.figures.distance, 1)} cm. `
+  const walked =
+    `The robot walked ${fixed(trial.figures.distance, 1)} cm. `
     + `The wanted distance was ${fixed(trial.expected_cm, 1)} cm.`;
   const recorded = `A camera recorded the run of “${trial.gait_name}”.`;
   const sentences = [recorded, walked, trial.plan?.astray_sentence];
@@ -25,7 +26,9 @@ const announced = new Set();
 export function announceRecording({ id, name, sentence }, open) {
   if (announced.has(id)) return;
   announced.add(id);
-  toast(`Recording of ${name}: ${sentence}`, { action: { label: "Open the recording", act: () => open({ video: id }) } });
+  toast(`Recording of ${name}: ${sentence}`, {
+    action: { label: "Open the recording", act: () => open({ video: id }) },
+  });
 }
 
 /**
@@ -35,14 +38,28 @@ export function announceRecording({ id, name, sentence }, open) {
  */
 export function recordingLine(run, open) {
   const line = h("div", { class: "run-recorded", role: "group", "aria-label": "Recordings of this run" });
-  const link = (text, wanted, title) => h("button", { class: "link", text, title, on: { click: () => open(wanted) } });
+  const link = (text, wanted, title) =>
+    h("button", { class: "link", text, title, on: { click: () => open(wanted) } });
   attempt(async () => {
     const [{ trials }, videos] = await Promise.all([trialApi.list(), videoApi.ofRun(run)]);
     const own = trials.filter((trial) => trial.run === run);
-    line.append(...own.map(({ id, name }) => link(own.length > 1 ? `Trial of this run: ${name}` : "Trial of this run", { trial: id }, name)),
-      ...videos.filter(({ state }) => state !== "removed").map(({ id, camera }) => link(
-        `Recording of ${camera}`, { video: id }, "Open the video that this camera recorded of the run")),
-      ...videos.filter(({ sentence }) => sentence).map(({ camera, sentence }) => h("p", { class: "why", text: `${camera}: ${sentence}` })));
+    line.append(
+      ...own.map(({ id, name }) =>
+        link(own.length > 1 ? `Trial of this run: ${name}` : "Trial of this run", { trial: id }, name),
+      ),
+      ...videos
+        .filter(({ state }) => state !== "removed")
+        .map(({ id, camera }) =>
+          link(
+            `Recording of ${camera}`,
+            { video: id },
+            "Open the video that this camera recorded of the run",
+          ),
+        ),
+      ...videos
+        .filter(({ sentence }) => sentence)
+        .map(({ camera, sentence }) => h("p", { class: "why", text: `${camera}: ${sentence}` })),
+    );
   })();
   return line;
 }

@@ -11,13 +11,18 @@ import { setupText } from "./camera_labels.js";
 import { lensPart } from "./camera_lens.js";
 import { placePart } from "./camera_place.js";
 
-const PARTS = [["lens", "Lens", lensPart], ["place", "Place", placePart], ["feet", "Feet", feetPart]];
+const PARTS = [
+  ["lens", "Lens", lensPart],
+  ["place", "Place", placePart],
+  ["feet", "Feet", feetPart],
+];
 
-const FILE_HELP = "Downloads the setup as a file. "
-  + "Use this file on the command line: footfall trial VIDEO --setup FILE";
+const FILE_HELP =
+  "Downloads the setup as a file. " + "Use this file on the command line: footfall trial VIDEO --setup FILE";
 
 /** The first part that is missing from a setup. */
-const firstPart = ({ setup, view }) => (!setup.points.length && !setup.lens ? "lens" : view ? "feet" : "place");
+const firstPart = ({ setup, view }) =>
+  !setup.points.length && !setup.lens ? "lens" : view ? "feet" : "place";
 
 /** Makes a setup with a name that is not taken yet. */
 export async function newSetup() {
@@ -29,12 +34,23 @@ export async function newSetup() {
 }
 
 function nameField(draft) {
-  const input = h("input", { "aria-label": "Setup name", maxlength: "120", required: true, spellcheck: "false", autocomplete: "off" });
+  const input = h("input", {
+    "aria-label": "Setup name",
+    maxlength: "120",
+    required: true,
+    spellcheck: "false",
+    autocomplete: "off",
+  });
   input.addEventListener("change", () => {
     if (input.value.trim()) draft.change({ name: input.value.trim() });
     else input.value = draft.state.setup.name;
   });
-  draft.watch(({ setup }) => [setup.name], ({ setup }) => { if (input !== document.activeElement) input.value = setup.name; });
+  draft.watch(
+    ({ setup }) => [setup.name],
+    ({ setup }) => {
+      if (input !== document.activeElement) input.value = setup.name;
+    },
+  );
   return input;
 }
 
@@ -43,7 +59,14 @@ function partTabs(parts, first) {
   const panel = h("div", { role: "tabpanel", id: "camera-part", "aria-labelledby": `camera-tab-${first}` });
   let current = null;
   const tabs = PARTS.map(([key, text], index) => {
-    const tab = h("button", { type: "button", role: "tab", id: `camera-tab-${key}`, "aria-controls": "camera-part", text, data: { arrows: "" } });
+    const tab = h("button", {
+      type: "button",
+      role: "tab",
+      id: `camera-tab-${key}`,
+      "aria-controls": "camera-part",
+      text,
+      data: { arrows: "" },
+    });
     tab.addEventListener("click", () => open(key));
     tab.addEventListener("keydown", (event) => {
       const to = { ArrowLeft: index - 1, ArrowRight: index + 1 }[event.key];
@@ -68,7 +91,13 @@ function partTabs(parts, first) {
     panel.replaceChildren(parts[key].element);
     parts[key].enter();
   }
-  return { elements: [h("div", { class: "tabs camera-tabs", role: "tablist", "aria-label": "Setup" }, ...tabs), panel], open };
+  return {
+    elements: [
+      h("div", { class: "tabs camera-tabs", role: "tablist", "aria-label": "Setup" }, ...tabs),
+      panel,
+    ],
+    open,
+  };
 }
 
 /** Says so where the shown picture has another size than the setup's own. */
@@ -79,8 +108,13 @@ function sizeNote(draft, stage) {
     const { width, height } = stage.picture.size;
     const differs = stage.picture.image.src && size && (size[0] !== width || size[1] !== height);
     const wanted = size?.join(" × ");
-    setText(note, differs ? `This setup is for pictures of ${wanted} px, but the picture has `
-      + `${width} × ${height} px. Set the camera to ${wanted} px, or make another setup.` : "");
+    setText(
+      note,
+      differs
+        ? `This setup is for pictures of ${wanted} px, but the picture has `
+            + `${width} × ${height} px. Set the camera to ${wanted} px, or make another setup.`
+        : "",
+    );
   };
   stage.picture.onView(tell);
   draft.watch(({ setup }) => [setup.size], tell);
@@ -90,7 +124,7 @@ function sizeNote(draft, stage) {
 /**
  * Opens a setup in the panel.
  * @param {{show: Function}} page of the trials' panel
- * @param {{answer: object, source: object, frame?: number, back: {text: string, act: () => void}}} wanted `answer` is the setup as
+ * @param {{answer: Record<string, any>, source: Record<string, any>, frame?: number, back: {text: string, act: () => void}}} wanted `answer` is the setup as
  *   the server tells it, `source` where the picture comes from
  */
 export function openSetup(page, { answer, source, frame = 0, back }) {
@@ -99,10 +133,20 @@ export function openSetup(page, { answer, source, frame = 0, back }) {
   const parts = Object.fromEntries(PARTS.map(([key, , build]) => [key, build(draft, stage)]));
   const tabs = partTabs(parts, firstPart(answer));
   const state = h("p", { class: "camera-state", role: "status", "aria-label": "Setup state" });
-  draft.watch(({ answer: now, kept, revision, trouble }) => [now, kept, revision, trouble], ({ answer: now, kept, revision, trouble }) => {
-    const keeping = kept ? `Saved, version ${revision}.` : trouble ? `The last change was not saved: ${trouble}` : "Saving…";
-    state.replaceChildren(h("span", { class: "dot", data: { tone: trouble ? "bad" : now.ready ? "good" : "caution" } }), h("span", { text: `${setupText(now)} ${keeping}` }));
-  });
+  draft.watch(
+    ({ answer: now, kept, revision, trouble }) => [now, kept, revision, trouble],
+    ({ answer: now, kept, revision, trouble }) => {
+      const keeping = kept
+        ? `Saved, version ${revision}.`
+        : trouble
+          ? `The last change was not saved: ${trouble}`
+          : "Saving…";
+      state.replaceChildren(
+        h("span", { class: "dot", data: { tone: trouble ? "bad" : now.ready ? "good" : "caution" } }),
+        h("span", { text: `${setupText(now)} ${keeping}` }),
+      );
+    },
+  );
   const leave = attempt(async () => {
     await draft.settled();
     back.act();
@@ -112,14 +156,38 @@ export function openSetup(page, { answer, source, frame = 0, back }) {
     const { id, setup } = draft.state;
     await setupApi.remove(id);
     back.act();
-    toast(`The setup “${setup.name}” is deleted.`, { action: { label: "Undo", act: attempt(async () => { await setupApi.restore(id); back.act(); }) } });
+    toast(`The setup “${setup.name}” is deleted.`, {
+      action: {
+        label: "Undo",
+        act: attempt(async () => {
+          await setupApi.restore(id);
+          back.act();
+        }),
+      },
+    });
   });
-  const element = h("div", { class: "trial-form camera-setup" },
+  const element = h(
+    "div",
+    { class: "trial-form camera-setup" },
     h("button", { type: "button", class: "link", text: back.text, on: { click: leave } }),
-    h("label", {}, h("span", { text: "Setup" }), nameField(draft)), state, sizeNote(draft, stage), ...tabs.elements,
-    h("div", { class: "run-files" },
+    h("label", {}, h("span", { text: "Setup" }), nameField(draft)),
+    state,
+    sizeNote(draft, stage),
+    ...tabs.elements,
+    h(
+      "div",
+      { class: "run-files" },
       h("a", { href: setupApi.exportPath(answer.id), download: "", text: "As a file", title: FILE_HELP }),
-      h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this setup", on: { click: remove } }), h("button", { type: "button", class: "primary", text: "Done", on: { click: leave } })));
+      h("button", {
+        type: "button",
+        class: "link",
+        text: "Delete",
+        "aria-label": "Delete this setup",
+        on: { click: remove },
+      }),
+      h("button", { type: "button", class: "primary", text: "Done", on: { click: leave } }),
+    ),
+  );
   page.show(element, () => stage.close());
   tabs.open(firstPart(answer));
 }
@@ -132,22 +200,36 @@ async function conflict(store, error) {
   if (error.status !== CONFLICT) throw error;
   const now = await setupApi.read(store.state.id);
   store.set({ setup: now.setup, answer: now, revision: now.revision, kept: true });
-  toast(`Somebody changed the setup “${now.setup.name}” on another page. You now see the new version. Make your last change again.`, { tone: "bad", of: "studio" });
+  toast(
+    `Somebody changed the setup “${now.setup.name}” on another page. You now see the new version. Make your last change again.`,
+    { tone: "bad", of: "studio" },
+  );
 }
 
 /**
  * Begins with a setup as the server sent it.
- * @param {object} first with `id`, `revision` and `setup`
- * @returns {object} `state` and `watch` as of a store: `setup` as it is on the page, `answer` what the server says of it, `kept`
+ * @param {Record<string, any>} first with `id`, `revision` and `setup`
+ * @returns {Record<string, any>} `state` and `watch` as of a store: `setup` as it is on the page, `answer` what the server says of it, `kept`
  *   whether that is of this very setup, `trouble` why it could not be kept; `change(patch, last)`, where `last` is false while a finger drags and nothing is kept; `check()` asks what the server says
  *   meanwhile; `settled()` resolves when all is kept
  */
 function setupDraft(first) {
-  const store = watchable({ id: first.id, revision: first.revision, setup: first.setup, answer: first, kept: true, trouble: null });
+  const store = watchable({
+    id: first.id,
+    revision: first.revision,
+    setup: first.setup,
+    answer: first,
+    kept: true,
+    trouble: null,
+  });
   let [working, checking, settled] = [false, false, []];
 
   function take(answer, requested) {
-    store.set({ answer, revision: answer.revision || store.state.revision, kept: Boolean(answer.id) && same(requested, store.state.setup) });
+    store.set({
+      answer,
+      revision: answer.revision || store.state.revision,
+      kept: Boolean(answer.id) && same(requested, store.state.setup),
+    });
   }
 
   async function keep() {
@@ -160,7 +242,10 @@ function setupDraft(first) {
         take(await setupApi.change(id, revision, setup), setup);
       } catch (error) {
         refused = setup;
-        await conflict(store, error).catch((other) => { store.set({ trouble: other.message }); report(other); });
+        await conflict(store, error).catch((other) => {
+          store.set({ trouble: other.message });
+          report(other);
+        });
       }
     }
     working = false;
@@ -184,7 +269,9 @@ function setupDraft(first) {
   }
 
   return {
-    get state() { return store.state; },
+    get state() {
+      return store.state;
+    },
     watch: store.watch,
     change(patch, last = true) {
       const setup = { ...store.state.setup, ...patch };
@@ -193,6 +280,11 @@ function setupDraft(first) {
       if (last) keep();
     },
     check,
-    settled: () => (working ? new Promise((resolve) => { settled.push(resolve); }) : Promise.resolve()),
+    settled: () =>
+      working
+        ? new Promise((resolve) => {
+            settled.push(resolve);
+          })
+        : Promise.resolve(),
   };
 }

@@ -20,21 +20,54 @@ function figuresText({ figures, warnings }) {
 
 function item(record, compare) {
   const { by, when, stands, waypoints_hash: waypoints, warnings } = record;
-  const state = h("span", { class: "approval-state", data: { stands: String(stands) }, text: stands ? "valid" : "no longer valid" });
-  return h("li", { class: "approval" },
-    h("span", { class: "approval-head" }, h("b", { text: by }), h("span", { class: "quiet", text: clockTime(when), title: when }), state),
+  const state = h("span", {
+    class: "approval-state",
+    data: { stands: String(stands) },
+    text: stands ? "valid" : "no longer valid",
+  });
+  return h(
+    "li",
+    { class: "approval" },
+    h(
+      "span",
+      { class: "approval-head" },
+      h("b", { text: by }),
+      h("span", { class: "quiet", text: clockTime(when), title: when }),
+      state,
+    ),
     h("span", { class: "quiet", text: figuresText(record), title: warnings.join("\n") || null }),
-    h("span", { class: "where" }, h("span", { class: "mono", text: shortHash(waypoints), title: waypoints }),
-      h("button", { class: "link", text: "compare", on: { click: () => compare(record) },
-        "aria-label": `Compare the approval by ${by}, ${clockTime(when)}, with ${NOW}` })));
+    h(
+      "span",
+      { class: "where" },
+      h("span", { class: "mono", text: shortHash(waypoints), title: waypoints }),
+      h("button", {
+        class: "link",
+        text: "compare",
+        on: { click: () => compare(record) },
+        "aria-label": `Compare the approval by ${by}, ${clockTime(when)}, with ${NOW}`,
+      }),
+    ),
+  );
 }
 
 /** Builds the part; it is empty while the gait has never been approved. */
 export function approvalHistory(store) {
   const list = h("ul", { class: "findings", role: "list", "aria-label": "Approvals" });
   const against = h("select", { "aria-label": "Approval compared with" });
-  const difference = h("div", { class: "approval-difference", role: "region", "aria-label": "What changed", tabindex: "0", hidden: true });
-  const element = h("div", { class: "approvals", hidden: true }, h("h3", { text: "Approvals" }), list, difference);
+  const difference = h("div", {
+    class: "approval-difference",
+    role: "region",
+    "aria-label": "What changed",
+    tabindex: "0",
+    hidden: true,
+  });
+  const element = h(
+    "div",
+    { class: "approvals", hidden: true },
+    h("h3", { text: "Approvals" }),
+    list,
+    difference,
+  );
   let records = [];
   let chosen = null;
   const [beginShow, beginRefresh] = [ticket(), ticket()];
@@ -42,17 +75,30 @@ export function approvalHistory(store) {
   const show = attempt(async () => {
     const isOld = beginShow();
     const { selected } = store.state;
-    const { groups } = await api.approvalDifference(selected, chosen.number, against.value ? Number(against.value) : null);
+    const { groups } = await api.approvalDifference(
+      selected,
+      chosen.number,
+      against.value ? Number(against.value) : null,
+    );
     if (isOld() || selected !== store.state.selected) return;
-    const title = h("label", { class: "quiet" }, `From ${chosen.by}, ${clockTime(chosen.when)}, to `, against);
+    const title = h(
+      "label",
+      { class: "quiet" },
+      `From ${chosen.by}, ${clockTime(chosen.when)}, to `,
+      against,
+    );
     difference.replaceChildren(title, ...sentences(groups));
     difference.hidden = false;
   });
 
   function compare(record) {
     chosen = record;
-    against.replaceChildren(h("option", { value: "", text: NOW }), ...records.filter(({ number }) => number !== record.number)
-      .map(({ number, by, when }) => h("option", { value: number, text: `${by}, ${clockTime(when)}` })));
+    against.replaceChildren(
+      h("option", { value: "", text: NOW }),
+      ...records
+        .filter(({ number }) => number !== record.number)
+        .map(({ number, by, when }) => h("option", { value: number, text: `${by}, ${clockTime(when)}` })),
+    );
     show();
   }
 
@@ -72,6 +118,9 @@ export function approvalHistory(store) {
   }
 
   against.addEventListener("change", show);
-  store.watch(({ view }) => [view?.id, view?.revision, view?.approval?.when, view?.verdict?.hash], attempt(refresh));
+  store.watch(
+    ({ view }) => [view?.id, view?.revision, view?.approval?.when, view?.verdict?.hash],
+    attempt(refresh),
+  );
   return element;
 }

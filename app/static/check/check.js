@@ -11,22 +11,49 @@ import { checkGone } from "../state/store.js";
 import { attempt, toast } from "../lib/toasts.js";
 
 function findingItem(finding, goTo) {
-  const place = [finding.foot !== null && `foot ${finding.foot + 1}`, finding.actuator !== null && finding.actuator !== undefined && `motor ${finding.actuator + 1}`,
-    finding.sample !== null && `sample ${finding.sample + 1}`].filter(Boolean).join(", ");
-  return h("li", { class: "finding" }, h("span", { class: "dot", data: { tone: finding.severity === "error" ? "bad" : "caution" } }),
+  const place = [
+    finding.foot !== null && `foot ${finding.foot + 1}`,
+    finding.actuator !== null && finding.actuator !== undefined && `motor ${finding.actuator + 1}`,
+    finding.sample !== null && `sample ${finding.sample + 1}`,
+  ]
+    .filter(Boolean)
+    .join(", ");
+  return h(
+    "li",
+    { class: "finding" },
+    h("span", { class: "dot", data: { tone: finding.severity === "error" ? "bad" : "caution" } }),
     h("span", {}, h("b", { text: finding.severity === "error" ? "Error: " : "Warning: " }), finding.sentence),
-    h("span", { class: "where" }, place && h("span", { text: place }), finding.time !== null && h("span", { text: `${fixed(finding.time)} s${finding.rule.startsWith("simulated_") ? " of the robot" : ""}` }),
-      finding.sample !== null && h("button", { class: "link", text: "go to", "aria-label": `Go to ${place}`, on: { click: () => goTo(finding) } })));
+    h(
+      "span",
+      { class: "where" },
+      place && h("span", { text: place }),
+      finding.time !== null
+        && h("span", {
+          text: `${fixed(finding.time)} s${finding.rule.startsWith("simulated_") ? " of the robot" : ""}`,
+        }),
+      finding.sample !== null
+        && h("button", {
+          class: "link",
+          text: "go to",
+          "aria-label": `Go to ${place}`,
+          on: { click: () => goTo(finding) },
+        }),
+    ),
+  );
 }
 
-const MARGIN_HELP = "Smallest distance to the limit of this rule during the whole motion. "
+const MARGIN_HELP =
+  "Smallest distance to the limit of this rule during the whole motion. "
   + "Below 0, the motion exceeds the limit";
 
 function marginList(margins) {
   const rows = margins.flatMap(({ rule, margin, unit }) => {
     const shown = readable(margin, unit);
-    return [h("dt", { text: ruleName(rule), title: MARGIN_HELP }),
-      h("dd", { text: shown.value, data: margin < 0 ? { broken: "" } : {} }), h("dd", { class: "unit", text: shown.unit })];
+    return [
+      h("dt", { text: ruleName(rule), title: MARGIN_HELP }),
+      h("dd", { text: shown.value, data: margin < 0 ? { broken: "" } : {} }),
+      h("dd", { class: "unit", text: shown.unit }),
+    ];
   });
   return [h("h3", { text: "Distance to the limits" }), h("dl", { class: "margins" }, ...rows)];
 }
@@ -36,35 +63,57 @@ const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) 
 function summary(view, before) {
   const { verdict } = view;
   if (!verdict) {
-    const text = view.revoked ? `${view.revoked} Check the gait again.` : before?.word === "approved" ? "The gait changed, so it is no longer approved. Check the gait again."
-      : before ? `${capital(checkGone(view, before))}. Check the gait again.`
-        : "Press Check to test every rule on the waypoints that would be sent to the robot.";
-    return h("p", { class: before || view.revoked ? "box-note" : "why", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
+    const text = view.revoked
+      ? `${view.revoked} Check the gait again.`
+      : before?.word === "approved"
+        ? "The gait changed, so it is no longer approved. Check the gait again."
+        : before
+          ? `${capital(checkGone(view, before))}. Check the gait again.`
+          : "Press Check to test every rule on the waypoints that would be sent to the robot.";
+    return h("p", {
+      class: before || view.revoked ? "box-note" : "why",
+      data: { tone: before || view.revoked ? "caution" : "plain" },
+      text,
+    });
   }
   const warnings = warningsOf(verdict).length;
   const errors = verdict.findings.length - warnings;
   if (!errors && !warnings) return "";
-  const counts = [errors && counted(errors, "error"), warnings && counted(warnings, "warning")].filter(Boolean).join(", ");
+  const counts = [errors && counted(errors, "error"), warnings && counted(warnings, "warning")]
+    .filter(Boolean)
+    .join(", ");
   const advice = verdict.passed ? "Read the findings before you approve." : "Errors block approval.";
   const text = `${counts}. ${advice}`;
   return h("p", { class: "box-note", data: { tone: verdict.passed ? "caution" : "bad" } }, h("b", { text }));
 }
 
-const WAYPOINTS_HELP = "Hash (fingerprint) of the approved waypoints. A waypoint is one message to the motors";
+const WAYPOINTS_HELP =
+  "Hash (fingerprint) of the approved waypoints. A waypoint is one message to the motors";
 const VERDICT_HELP = "Hash (fingerprint) of the approved check";
 
 function approvalBox({ approval }) {
   if (!approval) return "";
-  return h("dl", { class: "box-note summary", data: { tone: "good" } },
-    h("dt", { text: "Waypoints", title: WAYPOINTS_HELP }), h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
-    h("dt", { text: "Verdict", title: VERDICT_HELP }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }),
-    ...(approval.warnings.length ? [h("dt", { text: "Warnings seen" }), h("dd", { text: approval.warnings.length, title: approval.warnings.join("\n") })] : []));
+  return h(
+    "dl",
+    { class: "box-note summary", data: { tone: "good" } },
+    h("dt", { text: "Waypoints", title: WAYPOINTS_HELP }),
+    h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
+    h("dt", { text: "Verdict", title: VERDICT_HELP }),
+    h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }),
+    ...(approval.warnings.length
+      ? [
+          h("dt", { text: "Warnings seen" }),
+          h("dd", { text: approval.warnings.length, title: approval.warnings.join("\n") }),
+        ]
+      : []),
+  );
 }
 
 function whyNotCheck({ view, pending }) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The studio is still saving your last edit.";
-  if (view.plan?.live?.status === "infeasible") return "There is no motion to check. The Design step shows what is wrong and suggests changes.";
+  if (view.plan?.live?.status === "infeasible")
+    return "There is no motion to check. The Design step shows what is wrong and suggests changes.";
   if (!view.plan || view.plan.refusal) {
     return view.plan?.refusal?.sentence ?? "There is no plan to check. Press Optimise first.";
   }
@@ -75,7 +124,8 @@ function whyNotApprove({ view, pending, seenWarnings }) {
   if (!view?.verdict || pending.length) return "Check this version of the gait first.";
   if (!view.verdict.passed) return "The check failed. Errors block approval.";
   if (view.approval) return `${view.approval.by} has already approved this gait.`;
-  if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash) return "There are warnings. Read each warning, then tick “I have seen …”.";
+  if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash)
+    return "There are warnings. Read each warning, then tick “I have seen …”.";
   return null;
 }
 
@@ -84,12 +134,15 @@ function warningTick(store) {
   const box = h("input", { type: "checkbox" });
   const count = h("span");
   const element = h("label", { class: "tick", hidden: true }, box, count);
-  box.addEventListener("change", () => store.set({ seenWarnings: box.checked ? store.state.view?.verdict?.hash ?? null : null }));
+  box.addEventListener("change", () =>
+    store.set({ seenWarnings: box.checked ? (store.state.view?.verdict?.hash ?? null) : null }),
+  );
   const show = ({ view, seenWarnings }) => {
     const warnings = warningsOf(view?.verdict);
     element.hidden = !warnings.length || !view.verdict.passed || Boolean(view.approval);
     box.checked = seenWarnings !== undefined && seenWarnings === view?.verdict?.hash;
-    count.textContent = warnings.length === 1 ? "I have seen this warning" : `I have seen these ${warnings.length} warnings`;
+    count.textContent =
+      warnings.length === 1 ? "I have seen this warning" : `I have seen these ${warnings.length} warnings`;
   };
   return { element, show };
 }
@@ -102,9 +155,20 @@ async function approve(store) {
     toast("The gait has changed since the check. Check the gait again.");
     return;
   }
-  const approval = await api.approve(selected, by, view.verdict.hash, store.state.seenWarnings === view.verdict.hash);
+  const approval = await api.approve(
+    selected,
+    by,
+    view.verdict.hash,
+    store.state.seenWarnings === view.verdict.hash,
+  );
   if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
-  store.set({ view: { ...store.state.view, approval, revoked: null }, checked: { ...store.state.checked, [selected]: { word: "approved", revision: store.state.view.revision } } });
+  store.set({
+    view: { ...store.state.view, approval, revoked: null },
+    checked: {
+      ...store.state.checked,
+      [selected]: { word: "approved", revision: store.state.view.revision },
+    },
+  });
   if (openedStep() === "check") openStep("run");
 }
 
@@ -113,7 +177,16 @@ async function check(store) {
   const verdict = await api.check(selected);
   if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
   const seen = store.state.checked[selected];
-  store.set({ view: { ...store.state.view, verdict }, checked: { ...store.state.checked, [selected]: { word: seen?.word === "approved" && store.state.view.approval ? seen.word : "checked", revision: view.revision } } });
+  store.set({
+    view: { ...store.state.view, verdict },
+    checked: {
+      ...store.state.checked,
+      [selected]: {
+        word: seen?.word === "approved" && store.state.view.approval ? seen.word : "checked",
+        revision: view.revision,
+      },
+    },
+  });
 }
 
 /** Builds the section; `goTo` shows a finding's place. */
@@ -122,28 +195,55 @@ export function mountCheck(store, edits, goTo) {
   const approveButton = h("button", { id: "act-approve", text: "Approve" });
   const why = h("p", { class: "why" });
   const [head, body, foot] = [h("div"), h("div", { class: "findings" }), h("div")];
-  onPress(checkButton, attempt(() => check(store)), (reason) => toast(reason));
-  onPress(approveButton, attempt(() => approve(store)), (reason) => toast(reason));
+  onPress(
+    checkButton,
+    attempt(() => check(store)),
+    (reason) => toast(reason),
+  );
+  onPress(
+    approveButton,
+    attempt(() => approve(store)),
+    (reason) => toast(reason),
+  );
   const tick = warningTick(store);
   byId("foot-check").append(tick.element, h("div", { class: "solve" }, checkButton, approveButton), why);
   byId("check").append(head, sendingFields(store, edits), body, foot, approvalHistory(store));
 
-  store.watch(({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings], (state) => {
-    tick.show(state);
-    const { view, checked } = state;
-    setAllowed(checkButton, whyNotCheck(state),
-      "Tests every rule on the waypoints that would be sent to the robot");
-    const blocked = whyNotApprove(state);
-    setAllowed(approveButton, blocked,
-      "Allows the studio to send exactly the checked waypoints to the robot");
-    checkButton.classList.toggle("primary", !view?.verdict?.passed);
-    approveButton.classList.toggle("primary", !blocked);
-    why.textContent = view?.approval ? "" : (blocked ?? "After an edit or a new simulation, you must approve the gait again.");
-    if (!view) return;
-    head.replaceChildren(summary(view, checked[view.id]));
-    foot.replaceChildren(approvalBox(view));
-    const findings = (view.verdict?.findings ?? []).map((finding) => findingItem(finding, goTo));
-    body.replaceChildren(...(findings.length ? [h("h3", { text: "Findings" }), h("ul", { class: "findings", role: "list", "aria-label": "Findings" }, ...findings)] : []),
-      ...costTable(view.verdict), ...(view.verdict?.margins?.length ? marginList(view.verdict.margins) : []));
-  });
+  store.watch(
+    ({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings],
+    (state) => {
+      tick.show(state);
+      const { view, checked } = state;
+      setAllowed(
+        checkButton,
+        whyNotCheck(state),
+        "Tests every rule on the waypoints that would be sent to the robot",
+      );
+      const blocked = whyNotApprove(state);
+      setAllowed(
+        approveButton,
+        blocked,
+        "Allows the studio to send exactly the checked waypoints to the robot",
+      );
+      checkButton.classList.toggle("primary", !view?.verdict?.passed);
+      approveButton.classList.toggle("primary", !blocked);
+      why.textContent = view?.approval
+        ? ""
+        : (blocked ?? "After an edit or a new simulation, you must approve the gait again.");
+      if (!view) return;
+      head.replaceChildren(summary(view, checked[view.id]));
+      foot.replaceChildren(approvalBox(view));
+      const findings = (view.verdict?.findings ?? []).map((finding) => findingItem(finding, goTo));
+      body.replaceChildren(
+        ...(findings.length
+          ? [
+              h("h3", { text: "Findings" }),
+              h("ul", { class: "findings", role: "list", "aria-label": "Findings" }, ...findings),
+            ]
+          : []),
+        ...costTable(view.verdict),
+        ...(view.verdict?.margins?.length ? marginList(view.verdict.margins) : []),
+      );
+    },
+  );
 }

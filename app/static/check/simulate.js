@@ -11,12 +11,16 @@ import { simulateState } from "../steps/step_states.js";
 import { reportParts } from "./simulation_report.js";
 
 const VARIATIONS = 64;
-const CHANGES = "friction, masses, motor speed, one weak motor, a slope of up to 1°, and softer or stiffer legs";
-const VARY_HELP = `Simulates the gait ${VARIATIONS} times with random changes: ${CHANGES}. `
+const CHANGES =
+  "friction, masses, motor speed, one weak motor, a slope of up to 1°, and softer or stiffer legs";
+const VARY_HELP =
+  `Simulates the gait ${VARIATIONS} times with random changes: ${CHANGES}. `
   + "Each press of this button uses the same random changes";
-const HELP = "Simulates exactly the waypoints that would be sent to the robot, "
+const HELP =
+  "Simulates exactly the waypoints that would be sent to the robot, "
   + "with the timing of the firmware. The model has masses, friction and flexible legs";
-const AXIS = "The timing of the robot differs from the timing of the plan. "
+const AXIS =
+  "The timing of the robot differs from the timing of the plan. "
   + "The page shows each result at the matching time of the plan.";
 
 function whyNot(state) {
@@ -32,30 +36,53 @@ function whyNot(state) {
 
 /** The choice of physics parameters, of those that fit the shown gait's robot. */
 function setChooser(store) {
-  const select = h("select", { "aria-label": "Physics parameters", title: "Masses, friction and motors of the simulated robot" });
-  store.watch(({ view, physicsSets }) => [view?.document.robot, physicsSets], async ({ view }) => {
-    if (!view) return;
-    const { robot } = view.document;
-    try {
-      const { sets } = await api.physicsSets(robot);
-      if (store.state.view?.document.robot !== robot) return;
-      const chosen = select.value;
-      select.replaceChildren(...sets.map(({ name, title }) => h("option", { value: name, text: title })));
-      if (sets.some(({ name }) => name === chosen)) select.value = chosen;
-    } catch (error) {
-      report(error);
-    }
+  const select = h("select", {
+    "aria-label": "Physics parameters",
+    title: "Masses, friction and motors of the simulated robot",
   });
-  return { select, element: h("label", { class: "set-choice" }, h("span", { class: "quiet", text: "Physics" }), select) };
+  store.watch(
+    ({ view, physicsSets }) => [view?.document.robot, physicsSets],
+    async ({ view }) => {
+      if (!view) return;
+      const { robot } = view.document;
+      try {
+        const { sets } = await api.physicsSets(robot);
+        if (store.state.view?.document.robot !== robot) return;
+        const chosen = select.value;
+        select.replaceChildren(...sets.map(({ name, title }) => h("option", { value: name, text: title })));
+        if (sets.some(({ name }) => name === chosen)) select.value = chosen;
+      } catch (error) {
+        report(error);
+      }
+    },
+  );
+  return {
+    select,
+    element: h("label", { class: "set-choice" }, h("span", { class: "quiet", text: "Physics" }), select),
+  };
 }
 
 /** A bar with the share that is done, and Cancel. */
 function progressPart() {
-  const [bar, text] = [h("i"), h("span", { class: "number quiet", role: "status", "aria-label": "Simulation" })];
+  const [bar, text] = [
+    h("i"),
+    h("span", { class: "number quiet", role: "status", "aria-label": "Simulation" }),
+  ];
   const cancel = h("button", { text: "Cancel", "aria-label": "Cancel simulation" });
-  const element = h("div", { class: "simulating", hidden: true }, h("div", { class: "progress" }, bar), text, cancel);
+  const element = h(
+    "div",
+    { class: "simulating", hidden: true },
+    h("div", { class: "progress" }, bar),
+    text,
+    cancel,
+  );
   let id = null;
-  cancel.addEventListener("click", attempt(async () => { if (id) await api.cancelJob(id); }));
+  cancel.addEventListener(
+    "click",
+    attempt(async () => {
+      if (id) await api.cancelJob(id);
+    }),
+  );
   return {
     element,
     show(job) {
@@ -79,10 +106,17 @@ function standing(state) {
   const { view, simulation } = state;
   const failed = failure(state);
   if (failed) return [failed, "bad"];
-  if (!view?.simulation) return ["Not simulated yet. Press Simulate to see whether the robot walks, tips over or slips, and whether its motors are strong enough.", "plain"];
-  if (!view.simulation.fresh) return ["The gait has changed, so these figures are out of date. Simulate again.", "caution"];
+  if (!view?.simulation)
+    return [
+      "Not simulated yet. Press Simulate to see whether the robot walks, tips over or slips, and whether its motors are strong enough.",
+      "plain",
+    ];
+  if (!view.simulation.fresh)
+    return ["The gait has changed, so these figures are out of date. Simulate again.", "caution"];
   if (!simulation) return ["Loading the simulation.", "plain"];
-  return view.plan?.source === "draft" ? ["This plan cannot be sent. The simulation shows what would happen on the robot.", "caution"] : null;
+  return view.plan?.source === "draft"
+    ? ["This plan cannot be sent. The simulation shows what would happen on the robot.", "caution"]
+    : null;
 }
 
 /** Builds the section; `goToTime` brings the playhead to a time of the plan. */
@@ -91,35 +125,66 @@ export function mountSimulate(store, goToTime) {
   const vary = h("button", { text: `${VARIATIONS} variations` });
   const { select, element: sets } = setChooser(store);
   const progress = progressPart();
-  const [note, figures, map] = [h("p", { class: "box-note" }), h("div", { class: "simulated" }), robustness()];
-  const help = h("button", { class: "link", text: "See what would help", hidden: true, on: { click: () => openStep("design") } });
-  const press = (variations) => attempt(async () => {
-    await api.simulate(store.state.selected, select.value || null, variations);
+  const [note, figures, map] = [
+    h("p", { class: "box-note" }),
+    h("div", { class: "simulated" }),
+    robustness(),
+  ];
+  const help = h("button", {
+    class: "link",
+    text: "See what would help",
+    hidden: true,
+    on: { click: () => openStep("design") },
   });
+  const press = (variations) =>
+    attempt(async () => {
+      await api.simulate(store.state.selected, select.value || null, variations);
+    });
   onPress(run, press(0), (why) => toast(why));
   onPress(vary, press(VARIATIONS), (why) => toast(why));
   byId("foot-simulate").append(h("div", { class: "solve" }, run, vary));
-  byId("simulate").append(sets, progress.element, note, help, figures, map.element, h("p", { class: "why", text: AXIS }));
+  byId("simulate").append(
+    sets,
+    progress.element,
+    note,
+    help,
+    figures,
+    map.element,
+    h("p", { class: "why", text: AXIS }),
+  );
   followSimulation(store);
 
-  store.watch(({ jobs, view, pending, selected, simulation, live }) => [jobs, view, pending.length, selected, simulation, live], (state) => {
-    const why = whyNot(state);
-    setAllowed(run, why, HELP);
-    run.classList.toggle("primary", simulateState(state).mark !== "done");
-    setAllowed(vary, why, VARY_HELP);
-    progress.show(simulationJob(state));
-  });
-  store.watch((state) => [simulationOf(state), simulationOver(state), state.view, state.jobs, state.selected], (state) => {
-    const [simulation, words] = [simulationOf(state), standing(state)];
-    note.hidden = !words;
-    setText(note, words?.[0] ?? "");
-    setAttribute(note, "data-tone", words?.[1]);
-    help.hidden = !fallOf(state);
-    const stale = simulation !== null && simulationOver(state) === null;
-    figures.replaceChildren(...(simulation ? reportParts(simulation, goToTime) : []));
-    figures.toggleAttribute("data-stale", stale);
-    map.show(simulation?.variations ?? null, stale);
-  });
+  store.watch(
+    ({ jobs, view, pending, selected, simulation, live }) => [
+      jobs,
+      view,
+      pending.length,
+      selected,
+      simulation,
+      live,
+    ],
+    (state) => {
+      const why = whyNot(state);
+      setAllowed(run, why, HELP);
+      run.classList.toggle("primary", simulateState(state).mark !== "done");
+      setAllowed(vary, why, VARY_HELP);
+      progress.show(simulationJob(state));
+    },
+  );
+  store.watch(
+    (state) => [simulationOf(state), simulationOver(state), state.view, state.jobs, state.selected],
+    (state) => {
+      const [simulation, words] = [simulationOf(state), standing(state)];
+      note.hidden = !words;
+      setText(note, words?.[0] ?? "");
+      setAttribute(note, "data-tone", words?.[1]);
+      help.hidden = !fallOf(state);
+      const stale = simulation !== null && simulationOver(state) === null;
+      figures.replaceChildren(...(simulation ? reportParts(simulation, goToTime) : []));
+      figures.toggleAttribute("data-stale", stale);
+      map.show(simulation?.variations ?? null, stale);
+    },
+  );
 }
 
 const COLUMNS = 16;
@@ -129,8 +194,8 @@ const degrees = (radians) => fixed((radians * 180) / Math.PI);
 function cameOf({ walks, fell, max_tilt: tilt, distance, feet_error: error, ended_early: early }) {
   if (fell) return ["falls", "×", `The robot falls over, with a tilt of ${degrees(tilt)}°`];
   if (early) return ["falls", "×", `The simulation ends early: ${early.replace(/\.$/, "")}`];
-  const figures = `Tilt up to ${degrees(tilt)}°, distance walked ${mm(distance)} mm, `
-    + `mean foot error ${mm(error)} mm`;
+  const figures =
+    `Tilt up to ${degrees(tilt)}°, distance walked ${mm(distance)} mm, ` + `mean foot error ${mm(error)} mm`;
   if (walks) return ["walks", "", `The robot walks. ${figures}`];
   return ["tips", "!", `The robot tips onto a foot that should be in the air. ${figures}`];
 }
@@ -138,7 +203,14 @@ function cameOf({ walks, fell, max_tilt: tilt, distance, feet_error: error, ende
 function cell(run, number) {
   const [came, sign, words] = cameOf(run);
   const sentence = `Variation ${number + 1}: ${run.name}. ${words}.`;
-  return h("li", { class: "variation", title: sentence, "aria-label": sentence, tabindex: number ? "-1" : "0", text: sign, data: { came } });
+  return h("li", {
+    class: "variation",
+    title: sentence,
+    "aria-label": sentence,
+    tabindex: number ? "-1" : "0",
+    text: sign,
+    data: { came },
+  });
 }
 
 /** Arrows go from cell to cell; the focused cell is described below the map. */
@@ -151,16 +223,32 @@ function mountKeys(list, description) {
     event.preventDefault();
     event.stopPropagation();
     if (!to) return;
-    cells.forEach((one) => { one.tabIndex = one === to ? 0 : -1; });
+    cells.forEach((one) => {
+      one.tabIndex = one === to ? 0 : -1;
+    });
     to.focus();
   });
-  for (const kind of ["focusin", "pointerover"]) list.addEventListener(kind, ({ target }) => { if (target.matches(".variation")) setText(description, target.title); });
+  for (const kind of ["focusin", "pointerover"])
+    list.addEventListener(kind, ({ target }) => {
+      if (target.matches(".variation")) setText(description, target.title);
+    });
 }
 
 /** Builds the map. */
 export function robustness() {
-  const [share, list, description] = [h("b"), h("ul", { class: "variations", role: "list", "aria-label": "Variations" }), h("p", { class: "why said" })];
-  const element = h("div", { class: "robustness", hidden: true }, h("h3", { text: "Variations" }), h("p", {}, share), list, description);
+  const [share, list, description] = [
+    h("b"),
+    h("ul", { class: "variations", role: "list", "aria-label": "Variations" }),
+    h("p", { class: "why said" }),
+  ];
+  const element = h(
+    "div",
+    { class: "robustness", hidden: true },
+    h("h3", { text: "Variations" }),
+    h("p", {}, share),
+    list,
+    description,
+  );
   list.style.setProperty("--columns", COLUMNS);
   mountKeys(list, description);
   let known = null;
@@ -172,9 +260,15 @@ export function robustness() {
       if (!variations || variations === known) return;
       known = variations;
       const walking = variations.runs.filter(({ walks }) => walks).length;
-      setText(share, `${walking} of ${variations.count} walk (${fixed((100 * walking) / variations.count, 0)} %)`);
-      setText(description, `Each cell is one variation, a simulation with random changes: ${CHANGES}. `
-        + "Point at a cell to read the result of this variation.");
+      setText(
+        share,
+        `${walking} of ${variations.count} walk (${fixed((100 * walking) / variations.count, 0)} %)`,
+      );
+      setText(
+        description,
+        `Each cell is one variation, a simulation with random changes: ${CHANGES}. `
+          + "Point at a cell to read the result of this variation.",
+      );
       list.replaceChildren(...variations.runs.map(cell));
     },
   };

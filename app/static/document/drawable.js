@@ -5,12 +5,16 @@ import { isSequence } from "./sequence_edits.js";
 /** Why a gait's timeline cannot be drawn on, or null where it can. */
 export function whyNotDrawn(document) {
   if (isSequence(document)) {
-    return "You cannot draw in the timeline of a sequence. "
-      + "Change the gait of a part, then press “update” beside this part in Design.";
+    return (
+      "You cannot draw in the timeline of a sequence. "
+      + "Change the gait of a part, then press “update” beside this part in Design."
+    );
   }
   if (document?.poses) {
-    return "You cannot draw in this timeline, because the studio computes it from the poses of the gait. "
-      + "Instead, change foot order, step, cycles or another field in Design.";
+    return (
+      "You cannot draw in this timeline, because the studio computes it from the poses of the gait. "
+      + "Instead, change foot order, step, cycles or another field in Design."
+    );
   }
   return null;
 }

@@ -12,7 +12,9 @@ export function drawnRows(document) {
   const { phase_knots: phase, closing_knots: closing } = options;
   const turn = (legs / 4) * (direction - 1);
   const held = heldBoth(document).map((foot) => foot - 1);
-  const walking = order.map((foot) => Math.floor(foot - 1 + turn) % legs).filter((foot) => !held.includes(foot));
+  const walking = order
+    .map((foot) => Math.floor(foot - 1 + turn) % legs)
+    .filter((foot) => !held.includes(foot));
   const count = iterations * walking.length * 2 * phase + closing;
   const rows = Array.from({ length: legs }, () => new Array(count).fill("1"));
   for (let step = 0; step < walking.length * iterations; step += 1) {
@@ -40,7 +42,7 @@ export function repeatedRows({ timeline, options, iterations }, wanted) {
 
 /**
  * The foot order that a document shows: that of the first swings of a painted timeline, where each foot has its own.
- * @param {object} document
+ * @param {Record<string, any>} document
  * @returns {number[]}
  */
 export function drawnOrder(document) {
@@ -48,5 +50,7 @@ export function drawnOrder(document) {
   if (document.poses || direction !== 1 || isDrawn(document)) return order;
   const firsts = timeline.feet.map((row) => row.indexOf("0"));
   const isPlain = firsts.every((first) => first >= 0) && new Set(firsts).size === firsts.length;
-  return isPlain ? firsts.map((_, foot) => foot + 1).sort((one, other) => firsts[one - 1] - firsts[other - 1]) : order;
+  return isPlain
+    ? firsts.map((_, foot) => foot + 1).sort((one, other) => firsts[one - 1] - firsts[other - 1])
+    : order;
 }

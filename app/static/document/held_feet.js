@@ -11,7 +11,9 @@ export function heldBoth(document) {
 /** The document with other feet held up. */
 export function withHeld({ held: _, ...document }, { start, end }) {
   const sorted = (feet) => [...feet].sort((a, b) => a - b);
-  return start.length || end.length ? { ...document, held: { start: sorted(start), end: sorted(end) } } : document;
+  return start.length || end.length
+    ? { ...document, held: { start: sorted(start), end: sorted(end) } }
+    : document;
 }
 
 function renamed(document, name) {

@@ -12,7 +12,11 @@ const SHOWN_PHASES = 3;
 const feetThat = (row, stands) => (row ?? []).flatMap((isDown, foot) => (isDown === stands ? [foot] : []));
 
 /** "1", "1 and 3" or "1, 2 and 4": feet counted from 1. */
-const numbers = (feet) => feet.map((foot) => foot + 1).join(", ").replace(/, ([^,]*)$/, " and $1");
+const numbers = (feet) =>
+  feet
+    .map((foot) => foot + 1)
+    .join(", ")
+    .replace(/, ([^,]*)$/, " and $1");
 
 /** "foot 1" or "feet 1 and 3". */
 const named = (feet) => `${feet.length === 1 ? "foot" : "feet"} ${numbers(feet)}`;
@@ -35,11 +39,21 @@ function eachSample({ first, last }, contact, act) {
 export function missingMotionByCell(plan) {
   const found = new Map();
   const lacks = plan?.live?.lacks ?? [];
-  const add = (foot, sample, sentence, tone) => { if (!found.has(`${foot},${sample}`)) found.set(`${foot},${sample}`, { sentence, tone }); };
-  lacks.forEach((missing, rank) => eachSample(missing, plan.contact, (sample, row) => {
-    offenders(missing, row).forEach((foot) => add(foot, sample, missing.sentence, rank === 0 ? "bad" : "caution"));
-  }));
-  lacks.forEach((missing) => eachSample(missing, plan.contact, (sample, row) => row.forEach((_, foot) => add(foot, sample, missing.sentence, null))));
+  const add = (foot, sample, sentence, tone) => {
+    if (!found.has(`${foot},${sample}`)) found.set(`${foot},${sample}`, { sentence, tone });
+  };
+  lacks.forEach((missing, rank) =>
+    eachSample(missing, plan.contact, (sample, row) => {
+      offenders(missing, row).forEach((foot) =>
+        add(foot, sample, missing.sentence, rank === 0 ? "bad" : "caution"),
+      );
+    }),
+  );
+  lacks.forEach((missing) =>
+    eachSample(missing, plan.contact, (sample, row) =>
+      row.forEach((_, foot) => add(foot, sample, missing.sentence, null)),
+    ),
+  );
   return found;
 }
 
@@ -79,14 +93,20 @@ function joined(one, other) {
 }
 
 /** Whether a phase goes on in a later one: they overlap, or it follows at once for the same reason. */
-const goesOn = (phase, next) => next.first <= phase.last || (next.first === phase.last + 1 && next.words === phase.words);
+const goesOn = (phase, next) =>
+  next.first <= phase.last || (next.first === phase.last + 1 && next.words === phase.words);
 
 /**
  * The phases that miss a limit, in their order in time; the three worst of them.
  * @returns {{first: number, last: number, words: string}[]} samples, and why in a few words
  */
 export function missingPhases(plan) {
-  const entries = (plan?.live?.lacks ?? []).map((missing, rank) => ({ first: missing.first, last: missing.last, rank, words: wordsOf(missing, plan.contact) }));
+  const entries = (plan?.live?.lacks ?? []).map((missing, rank) => ({
+    first: missing.first,
+    last: missing.last,
+    rank,
+    words: wordsOf(missing, plan.contact),
+  }));
   const phases = [];
   for (const entry of entries.sort((a, b) => a.first - b.first)) {
     if (phases.length && goesOn(phases.at(-1), entry)) phases.push(joined(phases.pop(), entry));
@@ -97,6 +117,10 @@ export function missingPhases(plan) {
 }
 
 /** The entries that the preview marks, with where their first foot is in the nearest motion. */
-export const missingMotionOf = (plan) => (plan?.live?.lacks ?? []).map((missing) => ({
-  ...missing, places: missing.feet.length ? plan.feet.slice(missing.first, missing.last + 1).map((feet) => feet[missing.feet[0]]) : [],
-}));
+export const missingMotionOf = (plan) =>
+  (plan?.live?.lacks ?? []).map((missing) => ({
+    ...missing,
+    places: missing.feet.length
+      ? plan.feet.slice(missing.first, missing.last + 1).map((feet) => feet[missing.feet[0]])
+      : [],
+  }));

@@ -11,14 +11,28 @@ import { drawnRows, isDrawn, repeatedRows } from "./drawn_timeline.js";
 import { heldMirrored, heldReversed, heldTurned } from "./held_feet.js";
 import { allFeet, isWhole, lengthOf, regionText, wholeOf } from "./region.js";
 import { whyNotDrawn } from "./drawable.js";
-import { blockOf, heldBack, mirrored, mirroredFeet, resampled, reversed, shifted, stretchedInPlace, toStance, turnedRows, withBlock, withLocks } from "./timeline_operators.js";
+import {
+  blockOf,
+  heldBack,
+  mirrored,
+  mirroredFeet,
+  resampled,
+  reversed,
+  shifted,
+  stretchedInPlace,
+  toStance,
+  turnedRows,
+  withBlock,
+  withLocks,
+} from "./timeline_operators.js";
 
 const MOST_ITERATIONS = 20;
 export const MOST_SAMPLES = 2000;
 
 const sampleCount = ({ timeline }) => timeline.feet[0].length;
 const swingCount = (row) => row.split("1").filter(Boolean).length;
-const seconds = (document, samples) => `${(Math.max(0, samples - 1) * document.timeline.sample_time).toFixed(1)} s`;
+const seconds = (document, samples) =>
+  `${(Math.max(0, samples - 1) * document.timeline.sample_time).toFixed(1)} s`;
 
 /** What of a region does not fit behind a sample, in words; null where all of it does. */
 const clippedText = (over) => {
@@ -29,8 +43,10 @@ const clippedText = (over) => {
 
 const lengthNote = (before, after) => {
   const [old, now] = [sampleCount(before), sampleCount(after)];
-  return `The length of the timeline changes from ${old} to ${counted(now, "sample")} `
-    + `(${seconds(after, now)}).`;
+  return (
+    `The length of the timeline changes from ${old} to ${counted(now, "sample")} `
+    + `(${seconds(after, now)}).`
+  );
 };
 
 /** Where a mirrored order draws the mirrored timeline, the order goes along. */
@@ -45,7 +61,9 @@ function mirroredWhole(document, region, mirror) {
 }
 
 function mirrorNote(region, mirror) {
-  const pairs = mirroredFeet(region, mirror).filter((foot) => foot < mirror[foot]).map((foot) => `${foot + 1} and ${mirror[foot] + 1}`);
+  const pairs = mirroredFeet(region, mirror)
+    .filter((foot) => foot < mirror[foot])
+    .map((foot) => `${foot + 1} and ${mirror[foot] + 1}`);
   return `These pairs of feet exchange their cells: ${pairs.join(", ")}.`;
 }
 
@@ -54,14 +72,21 @@ function mirror({ document, region, mirror: map, words }) {
     const reason = "A gait can be mirrored only if its heading lies along a leg or halfway between two legs.";
     return { reason };
   }
-  return { apply: (now) => mirroredWhole(now, region, map), label: `Mirror ${words}`, note: mirrorNote(region, map) };
+  return {
+    apply: (now) => mirroredWhole(now, region, map),
+    label: `Mirror ${words}`,
+    note: mirrorNote(region, map),
+  };
 }
 
 function vanishing(before, after) {
-  const foot = before.timeline.feet.findIndex((row, index) => swingCount(after.timeline.feet[index]) < swingCount(row));
-  return foot < 0 ? null
+  const foot = before.timeline.feet.findIndex(
+    (row, index) => swingCount(after.timeline.feet[index]) < swingCount(row),
+  );
+  return foot < 0
+    ? null
     : `At this length, a swing of foot ${foot + 1} would disappear or touch the next swing. `
-      + "Enter a larger number of samples.";
+        + "Enter a larger number of samples.";
 }
 
 function stretch({ document, region, words, amount }) {
@@ -72,7 +97,11 @@ function stretch({ document, region, words, amount }) {
   const clipped = grows ? null : clippedText(first + amount - sampleCount(document));
   const note = grows ? lengthNote(document, after) : (clipped ?? `Samples ${first + 1}–${first + amount}.`);
   return {
-    apply, note, clipped, label: `Stretch ${words} to ${counted(amount, "sample")}`, reason: grows && amount < lengthOf(region) ? vanishing(document, after) : null,
+    apply,
+    note,
+    clipped,
+    label: `Stretch ${words} to ${counted(amount, "sample")}`,
+    reason: grows && amount < lengthOf(region) ? vanishing(document, after) : null,
     selection: { ...region, samples: [first, Math.min(first + amount, sampleCount(after)) - 1] },
   };
 }
@@ -83,16 +112,32 @@ function repeatWhole({ document, amount }) {
     const reason = `The gait would have ${iterations} iterations. At most ${MOST_ITERATIONS} iterations are possible.`;
     return { reason };
   }
-  const feet = document.segment_table ? null : isDrawn(document) ? drawnRows({ ...document, iterations }) : repeatedRows(document, iterations);
-  const shown = feet && { ...document, iterations, timeline: { ...document.timeline, feet, locked: feet.map((row) => "0".repeat(row.length)) } };
+  const feet = document.segment_table
+    ? null
+    : isDrawn(document)
+      ? drawnRows({ ...document, iterations })
+      : repeatedRows(document, iterations);
+  const shown = feet && {
+    ...document,
+    iterations,
+    timeline: { ...document.timeline, feet, locked: feet.map((row) => "0".repeat(row.length)) },
+  };
   if (!feet && !document.segment_table) {
-    return { reason: `The whole gait cannot be repeated, because its ${document.iterations} iterations `
-      + "have different lengths. "
-      + "Select the samples that you want to repeat." };
+    return {
+      reason:
+        `The whole gait cannot be repeated, because its ${document.iterations} iterations `
+        + "have different lengths. "
+        + "Select the samples that you want to repeat.",
+    };
   }
   return {
-    apply: (now) => ({ ...now, iterations }), document: shown, label: `Iterations to ${iterations}`, drawing: false, selection: null,
-    note: shown ? `${counted(iterations, "iteration")}. ${lengthNote(document, shown)}`
+    apply: (now) => ({ ...now, iterations }),
+    document: shown,
+    label: `Iterations to ${iterations}`,
+    drawing: false,
+    selection: null,
+    note: shown
+      ? `${counted(iterations, "iteration")}. ${lengthNote(document, shown)}`
       : `The gait will have ${counted(iterations, "iteration")}.`,
   };
 }
@@ -102,7 +147,9 @@ function repeat(context) {
   if (isWhole(document, region)) return repeatWhole(context);
   const after = repeated(document, region, amount);
   return {
-    apply: (now) => repeated(now, region, amount), note: lengthNote(document, after), label: `Repeat samples ${region.samples[0] + 1}–${region.samples[1] + 1} ${amount}×`,
+    apply: (now) => repeated(now, region, amount),
+    note: lengthNote(document, after),
+    label: `Repeat samples ${region.samples[0] + 1}–${region.samples[1] + 1} ${amount}×`,
     selection: { ...region, samples: [region.samples[0], region.samples[0] + lengthOf(region) * amount - 1] },
   };
 }
@@ -113,8 +160,12 @@ function rotate({ document }) {
   const by = Math.floor(((direction - document.direction) * feet.length) / 4);
   const shown = heldTurned({ ...document, direction, timeline: { ...document.timeline, feet } }, by);
   return {
-    apply: (now) => ({ ...now, direction }), document: shown, label: `Direction to ${direction}`, drawing: false,
-    note: `The direction changes from ${document.direction} to ${direction}. `
+    apply: (now) => ({ ...now, direction }),
+    document: shown,
+    label: `Direction to ${direction}`,
+    drawing: false,
+    note:
+      `The direction changes from ${document.direction} to ${direction}. `
       + "Each foot takes the cells of another foot.",
   };
 }
@@ -123,13 +174,22 @@ function duplicate({ document, region, words }) {
   const [, last] = region.samples;
   const rest = sampleCount(document) - 1 - last;
   if (rest <= 0) {
-    return { reason: "The selection ends at the end of the timeline, so a copy does not fit. "
-      + "Use Repeat instead, because Repeat makes the timeline longer." };
+    return {
+      reason:
+        "The selection ends at the end of the timeline, so a copy does not fit. "
+        + "Use Repeat instead, because Repeat makes the timeline longer.",
+    };
   }
   const apply = (now) => withBlock(now, [region.feet[0], last + 1], blockOf(now, region));
   const clipped = clippedText(lengthOf(region) - rest);
   return {
-    apply, clipped, label: `Duplicate ${words}`, selection: { ...region, samples: [last + 1, Math.min(last + lengthOf(region), sampleCount(document) - 1)] },
+    apply,
+    clipped,
+    label: `Duplicate ${words}`,
+    selection: {
+      ...region,
+      samples: [last + 1, Math.min(last + lengthOf(region), sampleCount(document) - 1)],
+    },
     note: clipped ?? `The copy starts at sample ${last + 2}.`,
   };
 }
@@ -137,7 +197,8 @@ function duplicate({ document, region, words }) {
 function insert({ document, region, amount }) {
   const after = inserted(document, region, amount);
   return {
-    apply: (now) => inserted(now, region, amount), label: `Insert ${counted(amount, "sample")} before sample ${region.samples[0] + 1}`,
+    apply: (now) => inserted(now, region, amount),
+    label: `Insert ${counted(amount, "sample")} before sample ${region.samples[0] + 1}`,
     note: `Each foot stays in stance or swing during the new samples. ${lengthNote(document, after)}`,
     selection: { ...region, samples: [region.samples[0], region.samples[0] + amount - 1] },
   };
@@ -148,11 +209,24 @@ function remove({ document, region }) {
     return { reason: "The timeline must keep at least two samples. Select fewer samples." };
   }
   const after = removed(document, region);
-  const range = lengthOf(region) === 1 ? `sample ${region.samples[0] + 1}` : `samples ${region.samples[0] + 1}–${region.samples[1] + 1}`;
-  return { apply: (now) => removed(now, region), label: `Remove ${range}`, note: lengthNote(document, after), selection: null };
+  const range =
+    lengthOf(region) === 1
+      ? `sample ${region.samples[0] + 1}`
+      : `samples ${region.samples[0] + 1}–${region.samples[1] + 1}`;
+  return {
+    apply: (now) => removed(now, region),
+    label: `Remove ${range}`,
+    note: lengthNote(document, after),
+    selection: null,
+  };
 }
 
-const locking = (locks) => ({ region, words }) => ({ apply: (now) => withLocks(now, region, locks), label: `${locks ? "Lock" : "Unlock"} ${words}` });
+const locking =
+  (locks) =>
+  ({ region, words }) => ({
+    apply: (now) => withLocks(now, region, locks),
+    label: `${locks ? "Lock" : "Unlock"} ${words}`,
+  });
 
 /**
  * `amount` is the number that an operation asks for; `start` gives what stands there at first. `columns` are operations
@@ -160,68 +234,96 @@ const locking = (locks) => ({ region, words }) => ({ apply: (now) => withLocks(n
  */
 export const OPERATIONS = {
   mirror: {
-    name: "Mirror", outcome: mirror,
-    help: "Mirror the cells at the heading of the gait: "
+    name: "Mirror",
+    outcome: mirror,
+    help:
+      "Mirror the cells at the heading of the gait: "
       + "each foot exchanges its cells with the foot on the other side",
   },
   stretch: {
-    name: "Stretch", help: "Make the selection, or the whole timeline, longer or shorter", outcome: stretch,
-    amount: { name: "New length", unit: "samples", least: 1, most: MOST_SAMPLES, factor: true, start: ({ document, region }) => lengthOf(region) + (isWhole(document, region) ? lengthOf(region) : 1) },
+    name: "Stretch",
+    help: "Make the selection, or the whole timeline, longer or shorter",
+    outcome: stretch,
+    amount: {
+      name: "New length",
+      unit: "samples",
+      least: 1,
+      most: MOST_SAMPLES,
+      factor: true,
+      start: ({ document, region }) => lengthOf(region) + (isWhole(document, region) ? lengthOf(region) : 1),
+    },
   },
   reverse: {
-    name: "Reverse in time", help: "Reverse the order of the samples: the last sample becomes the first",
+    name: "Reverse in time",
+    help: "Reverse the order of the samples: the last sample becomes the first",
     outcome: ({ region, words }) => ({
       apply: (now) => (isWhole(now, region) ? heldReversed(reversed(now, region)) : reversed(now, region)),
       label: `Reverse ${words}`,
     }),
   },
   shift: {
-    name: "Shift phase", help: "Move the cells later in time. "
-      + "Cells that leave at the end come back at the beginning",
+    name: "Shift phase",
+    help: "Move the cells later in time. " + "Cells that leave at the end come back at the beginning",
     amount: { name: "Later by", unit: "samples", least: -MOST_SAMPLES, most: MOST_SAMPLES, start: () => 1 },
-    outcome: ({ region, words, amount }) => ({ apply: (now) => shifted(now, region, amount), label: `Shift ${words} by ${amount > 0 ? "+" : "−"}${Math.abs(amount)}` }),
+    outcome: ({ region, words, amount }) => ({
+      apply: (now) => shifted(now, region, amount),
+      label: `Shift ${words} by ${amount > 0 ? "+" : "−"}${Math.abs(amount)}`,
+    }),
   },
   repeat: {
-    name: "Repeat", outcome: repeat,
-    help: "Repeat the selected samples of all feet. Later samples move to the right. "
+    name: "Repeat",
+    outcome: repeat,
+    help:
+      "Repeat the selected samples of all feet. Later samples move to the right. "
       + "Without a selection, the whole gait gets more iterations",
     amount: { name: "Times", unit: "", least: 2, most: MOST_ITERATIONS, start: () => 2 },
   },
   rotate: { name: "Rotate by 90°", help: "Turn the direction of the whole gait by 90°", outcome: rotate },
   duplicate: {
-    name: "Duplicate", help: "Copy the selected cells to the samples right after the selection. "
+    name: "Duplicate",
+    help:
+      "Copy the selected cells to the samples right after the selection. "
       + "The copy overwrites the old cells in these samples",
     outcome: duplicate,
   },
   stance: {
-    name: "To stance", help: "Change the selected cells to stance",
+    name: "To stance",
+    help: "Change the selected cells to stance",
     outcome: ({ region, words }) => ({ apply: (now) => toStance(now, region), label: `${words} to stance` }),
   },
   lock: { name: "Lock", help: "Lock cells, so that no edit can change them", outcome: locking(true) },
   unlock: {
-    name: "Unlock", help: "Unlock cells, so that edits can change them again", outcome: locking(false),
+    name: "Unlock",
+    help: "Unlock cells, so that edits can change them again",
+    outcome: locking(false),
   },
   insert: {
-    name: "Insert samples", outcome: insert, columns: true,
-    help: "Insert samples for all feet before the selection or the focused cell. "
+    name: "Insert samples",
+    outcome: insert,
+    columns: true,
+    help:
+      "Insert samples for all feet before the selection or the focused cell. "
       + "Later samples move to the right",
     amount: { name: "How many", unit: "samples", least: 1, most: 500, start: () => 1 },
   },
   remove: {
-    name: "Remove samples", outcome: remove, columns: true,
+    name: "Remove samples",
+    outcome: remove,
+    columns: true,
     help: "Remove the selected samples, or the focused sample, of all feet. Later samples move to the left",
   },
 };
 
-const refusalOf = (before, after) => (sampleCount(after) > MOST_SAMPLES
-  ? `The timeline would have ${sampleCount(after)} samples. `
-    + `A timeline can have at most ${MOST_SAMPLES} samples.`
-  : heldBack(before, after));
+const refusalOf = (before, after) =>
+  sampleCount(after) > MOST_SAMPLES
+    ? `The timeline would have ${sampleCount(after)} samples. `
+      + `A timeline can have at most ${MOST_SAMPLES} samples.`
+    : heldBack(before, after);
 
 /**
  * What an operation would make of a document.
  * @param {string} id of OPERATIONS
- * @param {{document: object, region: object|null, mirror: number[]|null}} state without a region the whole timeline is meant
+ * @param {{document: Record<string, any>, region: Record<string, any>|null, mirror: number[]|null}} state without a region the whole timeline is meant
  * @param {number} [amount]
  */
 export function outcomeOf(id, { document, region, mirror: map }, amount) {
@@ -242,7 +344,10 @@ function spliced(document, { samples: [first, last] }, change) {
   const { feet, locked } = document.timeline;
   const rows = feet.map((row) => cut(row, change));
   const unlocked = (text) => "0".repeat(change(text).length);
-  return { ...document, timeline: { ...document.timeline, feet: rows, locked: locked && locked.map((row) => cut(row, unlocked)) } };
+  return {
+    ...document,
+    timeline: { ...document.timeline, feet: rows, locked: locked && locked.map((row) => cut(row, unlocked)) },
+  };
 }
 
 /** Inserts samples before the region; in them every foot does what it did in the sample before. */
@@ -251,7 +356,10 @@ function inserted(document, region, count) {
   const { feet, locked } = document.timeline;
   const grown = (row, value) => row.slice(0, first) + value.repeat(count) + row.slice(first);
   const rows = feet.map((row) => grown(row, row[Math.max(0, first - 1)]));
-  return { ...document, timeline: { ...document.timeline, feet: rows, locked: locked && locked.map((row) => grown(row, "0")) } };
+  return {
+    ...document,
+    timeline: { ...document.timeline, feet: rows, locked: locked && locked.map((row) => grown(row, "0")) },
+  };
 }
 
 const removed = (document, region) => spliced(document, region, () => "");

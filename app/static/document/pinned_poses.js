@@ -9,7 +9,8 @@ import { fixed } from "../lib/format.js";
 const FARTHEST = 0.03;
 
 /** Whether a pinned pose is as far away as it can be. */
-export const isFarthest = ({ along, sideways }) => [along, sideways].some((value) => Math.abs(value) >= FARTHEST);
+export const isFarthest = ({ along, sideways }) =>
+  [along, sideways].some((value) => Math.abs(value) >= FARTHEST);
 
 const within = (value) => Math.min(Math.max(value, -FARTHEST), FARTHEST);
 
@@ -24,13 +25,18 @@ export const pinOf = (document, pose) => pinnedOf(document).find((pin) => pin.po
 /** The document with a pose pinned, m along the way and to its left. */
 export function withPinned(document, pose, [along, sideways]) {
   const others = pinnedOf(document).filter((pin) => pin.pose !== pose);
-  const pinned = [...others, { pose, along: within(along), sideways: within(sideways) }].sort((one, other) => one.pose - other.pose);
+  const pinned = [...others, { pose, along: within(along), sideways: within(sideways) }].sort(
+    (one, other) => one.pose - other.pose,
+  );
   return { ...document, poses: { ...document.poses, pinned } };
 }
 
 /** The document with a pose let go. */
 export function withoutPinned(document, pose) {
-  return { ...document, poses: { ...document.poses, pinned: pinnedOf(document).filter((pin) => pin.pose !== pose) } };
+  return {
+    ...document,
+    poses: { ...document.poses, pinned: pinnedOf(document).filter((pin) => pin.pose !== pose) },
+  };
 }
 
 /**
@@ -45,7 +51,10 @@ export function evenTravel(bodies) {
   const length = Math.hypot(dx, dy) || 1;
   const [ux, uy] = [dx / length, dy / length];
   return {
-    at: (index) => [first[0] + (dx * index) / (bodies.length - 1), first[1] + (dy * index) / (bodies.length - 1)],
+    at: (index) => [
+      first[0] + (dx * index) / (bodies.length - 1),
+      first[1] + (dy * index) / (bodies.length - 1),
+    ],
     toOffset: ([x, y]) => [x * ux + y * uy, y * ux - x * uy],
   };
 }

@@ -26,24 +26,32 @@ export function within(document, region) {
 
 export const lengthOf = ({ samples: [first, last] }) => last - first + 1;
 
-export const feetOf = ({ feet: [first, last] }) => Array.from({ length: last - first + 1 }, (_, index) => first + index);
+export const feetOf = ({ feet: [first, last] }) =>
+  Array.from({ length: last - first + 1 }, (_, index) => first + index);
 
-export const samplesOf = ({ samples: [first, last] }) => Array.from({ length: last - first + 1 }, (_, index) => first + index);
+export const samplesOf = ({ samples: [first, last] }) =>
+  Array.from({ length: last - first + 1 }, (_, index) => first + index);
 
-export const cellsOf = (region) => feetOf(region).flatMap((foot) => samplesOf(region).map((sample) => [foot, sample]));
+export const cellsOf = (region) =>
+  feetOf(region).flatMap((foot) => samplesOf(region).map((sample) => [foot, sample]));
 
 export const hasCell = ({ feet, samples }, [foot, sample]) =>
   foot >= feet[0] && foot <= feet[1] && sample >= samples[0] && sample <= samples[1];
 
-export const allFeet = (document, { feet: [first, last] }) => first === 0 && last === document.timeline.feet.length - 1;
+export const allFeet = (document, { feet: [first, last] }) =>
+  first === 0 && last === document.timeline.feet.length - 1;
 
-export const isWhole = (document, region) => allFeet(document, region) && lengthOf(region) === document.timeline.feet[0].length;
+export const isWhole = (document, region) =>
+  allFeet(document, region) && lengthOf(region) === document.timeline.feet[0].length;
 
-const range = (one, many, [first, last]) => (first === last ? `${one} ${first + 1}` : `${many} ${first + 1}–${last + 1}`);
+const range = (one, many, [first, last]) =>
+  first === last ? `${one} ${first + 1}` : `${many} ${first + 1}–${last + 1}`;
 
 /** In words, counted from 1: "foot 3, samples 6–10". */
 export function regionText(document, region) {
   if (isWhole(document, region)) return "the whole timeline";
   const feet = allFeet(document, region) ? "all feet" : range("foot", "feet", region.feet);
-  return lengthOf(region) === document.timeline.feet[0].length ? `all of ${feet}` : `${feet}, ${range("sample", "samples", region.samples)}`;
+  return lengthOf(region) === document.timeline.feet[0].length
+    ? `all of ${feet}`
+    : `${feet}, ${range("sample", "samples", region.samples)}`;
 }

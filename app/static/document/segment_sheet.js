@@ -21,22 +21,38 @@ export function segmentSheetOf(document) {
   const own = (rows) => (rows?.length ? rows.map((_, foot) => rows[ownRow(sheet, foot)]) : []);
   const [feet, link] = [transposed(own(table.feet)), transposed(own(table.link))];
   return {
-    ...sheet, rows: [...feet, ...link], count: feet.length, from: table.repeat_from, to: table.repeat_to ?? feet.length,
-    toEnd: table.repeat_to === null || table.repeat_to === undefined, samples: table.samples_per_segment, words: table.definitions,
+    ...sheet,
+    rows: [...feet, ...link],
+    count: feet.length,
+    from: table.repeat_from,
+    to: table.repeat_to ?? feet.length,
+    toEnd: table.repeat_to === null || table.repeat_to === undefined,
+    samples: table.samples_per_segment,
+    words: table.definitions,
   };
 }
 
 /** The document's segment table of a sheet. */
 export function tableOf(sheet) {
-  const columns = (rows) => (rows.length ? Array.from({ length: sheet.legs }, (_, row) => rows.map((names) => names[mod(row + sheet.shift, sheet.legs)])) : []);
+  const columns = (rows) =>
+    rows.length
+      ? Array.from({ length: sheet.legs }, (_, row) =>
+          rows.map((names) => names[mod(row + sheet.shift, sheet.legs)]),
+        )
+      : [];
   return {
-    samples_per_segment: sheet.samples, repeat_from: sheet.from, repeat_to: sheet.toEnd && sheet.to === sheet.count ? null : sheet.to,
-    link: columns(sheet.rows.slice(sheet.count)), feet: columns(sheet.rows.slice(0, sheet.count)), definitions: sheet.words,
+    samples_per_segment: sheet.samples,
+    repeat_from: sheet.from,
+    repeat_to: sheet.toEnd && sheet.to === sheet.count ? null : sheet.to,
+    link: columns(sheet.rows.slice(sheet.count)),
+    feet: columns(sheet.rows.slice(0, sheet.count)),
+    definitions: sheet.words,
   };
 }
 
 /** What a row is called: "segment 4", or "link segment 1". */
-export const rowName = ({ count }, row) => (row < count ? `segment ${row + 1}` : `link segment ${row - count + 1}`);
+export const rowName = ({ count }, row) =>
+  row < count ? `segment ${row + 1}` : `link segment ${row - count + 1}`;
 
 /** Where a foot is before a row's segment; null where anything may begin. */
 export function placeBefore({ rows, count, to, words }, row, foot) {
@@ -53,13 +69,17 @@ function cellError(sheet, row, foot) {
   if (!segment) return `there is no segment “${name}”.`;
   const before = placeBefore(sheet, row, foot);
   return before && before !== segment.start
-    ? `“${name}” starts at ${segment.start}, but the segment before it ends at ${before}.` : null;
+    ? `“${name}” starts at ${segment.start}, but the segment before it ends at ${before}.`
+    : null;
 }
 
 /** Why a foot's iterations cannot follow one another: `{row, sentence}`, or null. */
 function chainError(sheet, foot) {
   const last = (sheet.rows.length > sheet.count ? sheet.rows.length : sheet.to) - 1;
-  const [after, goal] = [placeAfter(sheet, last, foot), sheet.words.segments[sheet.rows[sheet.from - 1]?.[foot]]?.start];
+  const [after, goal] = [
+    placeAfter(sheet, last, foot),
+    sheet.words.segments[sheet.rows[sheet.from - 1]?.[foot]]?.start,
+  ];
   const sentence = `the segment ends at ${after}, but the next iteration starts at ${goal}.`;
   return after === goal ? null : { row: last, sentence };
 }
@@ -76,31 +96,40 @@ export function errorsOf(sheet) {
       if (sentence) found.push({ row, foot, sentence, stops: row < sheet.count || sheet.iterations > 1 });
     }
     const chain = chainError(sheet, foot);
-    if (chain && !found.some((one) => one.foot === foot)) found.push({ ...chain, foot, stops: sheet.iterations > 1 });
+    if (chain && !found.some((one) => one.foot === foot))
+      found.push({ ...chain, foot, stops: sheet.iterations > 1 });
   }
   return found.sort((a, b) => Number(b.stops) - Number(a.stops) || a.row - b.row);
 }
 
 /** "Foot 2, segment 4: …" */
-export const errorSentence = (sheet, { row, foot, sentence }) => `Foot ${foot + 1}, ${rowName(sheet, row)}: ${sentence}`;
+export const errorSentence = (sheet, { row, foot, sentence }) =>
+  `Foot ${foot + 1}, ${rowName(sheet, row)}: ${sentence}`;
 
 /** Every segment for a cell: `{name, segment, why}`, those that fit first; `why` says why another one does not. */
 export function choicesOf(sheet, row, foot) {
   const before = placeBefore(sheet, row, foot);
   const all = Object.entries(sheet.words.segments).map(([name, segment]) => ({
-    name, segment, why: before && before !== segment.start ? `starts at ${segment.start}` : null,
+    name,
+    segment,
+    why: before && before !== segment.start ? `starts at ${segment.start}` : null,
   }));
   return [...all.filter(({ why }) => !why), ...all.filter(({ why }) => why)];
 }
 
 /** The segment that waits at a position, or null. */
 export const waitAt = ({ words }, place) =>
-  Object.entries(words.segments).find(([, { start, end, swing }]) => start === place && end === place && !swing)?.[0] ?? null;
+  Object.entries(words.segments).find(
+    ([, { start, end, swing }]) => start === place && end === place && !swing,
+  )?.[0] ?? null;
 
 /** Rows in the order in which all iterations run through them. */
 export function walked({ count, rows, from, to, iterations }) {
   const range = (first, end) => Array.from({ length: Math.max(end - first, 0) }, (_, index) => first + index);
-  const again = Array.from({ length: iterations - 1 }, () => [...range(count, rows.length), ...range(from - 1, to)]).flat();
+  const again = Array.from({ length: iterations - 1 }, () => [
+    ...range(count, rows.length),
+    ...range(from - 1, to),
+  ]).flat();
   return [...range(0, to), ...again, ...range(to, count)];
 }
 
@@ -109,7 +138,9 @@ export function samplesOf(sheet, [first, last]) {
   const places = walked(sheet);
   const found = [];
   for (let row = first; row <= last; row += 1) if (places.includes(row)) found.push(places.indexOf(row));
-  return found.length ? [Math.min(...found) * sheet.samples, (Math.max(...found) + 1) * sheet.samples - 1] : null;
+  return found.length
+    ? [Math.min(...found) * sheet.samples, (Math.max(...found) + 1) * sheet.samples - 1]
+    : null;
 }
 
 /** The rows that samples belong to: `[first, last]`. */

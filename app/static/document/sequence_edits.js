@@ -10,7 +10,7 @@ export const isSequence = (document) => Boolean(document?.sequence?.length);
 
 /**
  * Adds a gait at the end; one that is itself a sequence stands for its parts.
- * @param {object} gait its document
+ * @param {Record<string, any>} gait its document
  * @param {string} source its id
  */
 export function added(gait, source) {
@@ -20,7 +20,10 @@ export function added(gait, source) {
 
 /** Takes a part out. */
 export function removed(document, index) {
-  return { apply: withParts((parts) => parts.filter((_, at) => at !== index)), label: `Take out ${document.sequence[index].gait.name}` };
+  return {
+    apply: withParts((parts) => parts.filter((_, at) => at !== index)),
+    label: `Take out ${document.sequence[index].gait.name}`,
+  };
 }
 
 /** Moves a part to another place, counted from 0. */

@@ -4,7 +4,12 @@ const HALF_TURN = 180;
 
 /** [x, y] turned by quarter turns. */
 function turned([x, y], quarters) {
-  return [[x, y], [-y, x], [-x, -y], [y, -x]][((quarters % 4) + 4) % 4];
+  return [
+    [x, y],
+    [-y, x],
+    [-x, -y],
+    [y, -x],
+  ][((quarters % 4) + 4) % 4];
 }
 
 /** Body travel an iteration, m. */
@@ -34,4 +39,7 @@ export function withStepLength(document, metres) {
 export const stepTurn = ({ step }) => (step[2] * HALF_TURN) / Math.PI;
 
 /** The document with that turn. */
-export const withTurn = (document, degrees) => ({ ...document, step: [document.step[0], document.step[1], (degrees * Math.PI) / HALF_TURN] });
+export const withTurn = (document, degrees) => ({
+  ...document,
+  step: [document.step[0], document.step[1], (degrees * Math.PI) / HALF_TURN],
+});

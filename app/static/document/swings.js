@@ -24,24 +24,34 @@ const shifted = ({ first, last }, part, by) => ({
 /** Samples whose value differs between two swings: `toSwing` and `toStance`. */
 export function differing(from, to) {
   const span = ({ first, last }) => Array.from({ length: last - first + 1 }, (_, index) => first + index);
-  const inside = ({ first, last }) => (sample) => sample >= first && sample <= last;
-  return { toSwing: span(to).filter((sample) => !inside(from)(sample)), toStance: span(from).filter((sample) => !inside(to)(sample)) };
+  const inside =
+    ({ first, last }) =>
+    (sample) =>
+      sample >= first && sample <= last;
+  return {
+    toSwing: span(to).filter((sample) => !inside(from)(sample)),
+    toStance: span(from).filter((sample) => !inside(to)(sample)),
+  };
 }
 
 /** Why a swing may not come to lie there; "" where only the border of the timeline is in the way, null where it may. */
 function obstacle({ row, locked, foot }, from, to) {
   if (to.first < 0 || to.last >= row.length) return "";
   if (to.first > to.last) {
-    return `The swing of foot ${foot + 1} must keep at least one sample. `
-      + "To remove the swing, click its cell.";
+    return (
+      `The swing of foot ${foot + 1} must keep at least one sample. ` + "To remove the swing, click its cell."
+    );
   }
   const { toSwing, toStance } = differing(from, to);
   const fixed = [...toSwing, ...toStance].find((sample) => locked?.[sample] === "1");
   if (fixed !== undefined) return `Foot ${foot + 1}, sample ${fixed + 1} is locked.`;
-  const next = [to.first - 1, ...toSwing, to.last + 1].find((sample) => row[sample] === "0" && (sample < from.first || sample > from.last));
-  return next === undefined ? null
+  const next = [to.first - 1, ...toSwing, to.last + 1].find(
+    (sample) => row[sample] === "0" && (sample < from.first || sample > from.last),
+  );
+  return next === undefined
+    ? null
     : `Foot ${foot + 1} has another swing at sample ${next + 1}. `
-      + "One sample of stance must stay between the two swings.";
+        + "One sample of stance must stay between the two swings.";
 }
 
 /**

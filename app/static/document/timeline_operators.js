@@ -9,7 +9,8 @@ import { cellsOf, feetOf, lengthOf } from "./region.js";
 const withFeet = (document, feet) => ({ ...document, timeline: { ...document.timeline, feet } });
 
 /** A row with other text from a sample on, as far as the row goes. */
-const written = (row, sample, text) => row.slice(0, sample) + text.slice(0, row.length - sample) + row.slice(sample + text.length);
+const written = (row, sample, text) =>
+  row.slice(0, sample) + text.slice(0, row.length - sample) + row.slice(sample + text.length);
 
 /** Rows of 1 and 0 inside a region, a row a foot. */
 export const blockOf = ({ timeline }, { feet: [top, bottom], samples: [first, last] }) =>
@@ -17,7 +18,12 @@ export const blockOf = ({ timeline }, { feet: [top, bottom], samples: [first, la
 
 /** Writes a block with its first row and sample at a cell; what does not fit is left out. */
 export function withBlock(document, [foot, sample], block) {
-  return withFeet(document, document.timeline.feet.map((row, index) => (block[index - foot] === undefined ? row : written(row, sample, block[index - foot]))));
+  return withFeet(
+    document,
+    document.timeline.feet.map((row, index) =>
+      block[index - foot] === undefined ? row : written(row, sample, block[index - foot]),
+    ),
+  );
 }
 
 const eachRow = (document, region, change) =>
@@ -35,14 +41,20 @@ export function shifted(document, region, by) {
 }
 
 /** Feet of the region and those that they change places with; `mirror` gives each foot's counterpart. */
-export const mirroredFeet = (region, mirror) => [...new Set(feetOf(region).flatMap((foot) => [foot, mirror[foot]]))].sort((a, b) => a - b);
+export const mirroredFeet = (region, mirror) =>
+  [...new Set(feetOf(region).flatMap((foot) => [foot, mirror[foot]]))].sort((a, b) => a - b);
 
 /** Changes each foot of the region with its counterpart on the other side of the heading. */
 export function mirrored(document, region, mirror) {
   const [first, last] = region.samples;
   const rows = document.timeline.feet;
   const turned = new Set(mirroredFeet(region, mirror));
-  return withFeet(document, rows.map((row, foot) => (turned.has(foot) ? written(row, first, rows[mirror[foot]].slice(first, last + 1)) : row)));
+  return withFeet(
+    document,
+    rows.map((row, foot) =>
+      turned.has(foot) ? written(row, first, rows[mirror[foot]].slice(first, last + 1)) : row,
+    ),
+  );
 }
 
 /** A row over another number of samples: each takes the value at the same share of the time. */
@@ -52,7 +64,11 @@ export const resampled = (row, length) =>
 /** The region's samples over another number of samples; what was behind is written over, what is left stands. */
 export function stretchedInPlace(document, region, length) {
   const cleared = toStance(document, region);
-  return withBlock(cleared, [region.feet[0], region.samples[0]], blockOf(document, region).map((row) => resampled(row, length)));
+  return withBlock(
+    cleared,
+    [region.feet[0], region.samples[0]],
+    blockOf(document, region).map((row) => resampled(row, length)),
+  );
 }
 
 /** Takes the region's content to other samples; where it was, its feet stand. Copies it where `keeps` says so. */
@@ -60,7 +76,11 @@ export function relocated(document, region, by, keeps = false) {
   const block = blockOf(document, region);
   const sample = region.samples[0] + by;
   const from = Math.max(0, -sample);
-  return withBlock(keeps ? document : toStance(document, region), [region.feet[0], sample + from], block.map((row) => row.slice(from)));
+  return withBlock(
+    keeps ? document : toStance(document, region),
+    [region.feet[0], sample + from],
+    block.map((row) => row.slice(from)),
+  );
 }
 
 /** Locks every cell of the region, or unlocks it. */
@@ -87,14 +107,24 @@ export function heldBack(before, after) {
   const [old, now] = [before.timeline, after.timeline];
   if (old.feet[0].length !== now.feet[0].length) {
     const cell = firstLocked(before);
-    return cell && `Foot ${cell[0] + 1}, sample ${cell[1] + 1} is locked. `
-      + "Unlock all cells before you change the number of samples.";
+    return (
+      cell
+      && `Foot ${cell[0] + 1}, sample ${cell[1] + 1} is locked. `
+        + "Unlock all cells before you change the number of samples."
+    );
   }
   for (const [foot, row] of (old.locked ?? []).entries()) {
-    const sample = [...row].findIndex((lock, index) => lock === "1" && now.locked?.[foot]?.[index] === "1" && old.feet[foot][index] !== now.feet[foot][index]);
+    const sample = [...row].findIndex(
+      (lock, index) =>
+        lock === "1"
+        && now.locked?.[foot]?.[index] === "1"
+        && old.feet[foot][index] !== now.feet[foot][index],
+    );
     if (sample < 0) continue;
-    return `This operation would change foot ${foot + 1}, sample ${sample + 1}, which is locked. `
-      + "Unlock this cell first.";
+    return (
+      `This operation would change foot ${foot + 1}, sample ${sample + 1}, which is locked. `
+      + "Unlock this cell first."
+    );
   }
   return JSON.stringify(before) === JSON.stringify(after) ? "Nothing would change." : null;
 }

@@ -10,16 +10,19 @@ import { robotOptions, robots } from "../shell/robots.js";
 import { fastestRequest } from "./fastest_request.js";
 import { searchPart } from "./fastest_search.js";
 
-const PURPOSE = "Here you create the gait with which the robot walks or turns fastest. "
+const PURPOSE =
+  "Here you create the gait with which the robot walks or turns fastest. "
   + "The number below a value is the speed of the gait with this value. "
   + "After you have created the gait, you can still change all values.";
-const OTHER_LAW = "The timing of this robot's firmware is not known. "
+const OTHER_LAW =
+  "The timing of this robot's firmware is not known. "
   + "All times are computed with the firmware timing of the DeltaWalker.";
 const MOST_CYCLES = 20;
 
 function addStyles() {
   const href = new URL("./fastest.css", import.meta.url).pathname;
-  if (!document.querySelector(`link[href="${href}"]`)) document.head.append(h("link", { rel: "stylesheet", href }));
+  if (!document.querySelector(`link[href="${href}"]`))
+    document.head.append(h("link", { rel: "stylesheet", href }));
 }
 
 /** A robot's first foot order along x, begun with foot 1. */
@@ -30,7 +33,13 @@ function firstOrder({ orders }) {
 }
 
 function labelled(label, control, help, refusal = null) {
-  return h("label", { class: "new-row", title: help }, h("span", { class: "name", text: label }), control, refusal?.element);
+  return h(
+    "label",
+    { class: "new-row", title: help },
+    h("span", { class: "name", text: label }),
+    control,
+    refusal?.element,
+  );
 }
 
 /** Robot, name and cycles. */
@@ -44,16 +53,35 @@ function headFields(store, list, request) {
   cycles.value = request.value().cycles;
   robot.addEventListener("change", () => {
     const chosen = list.find((one) => one.name === robot.value);
-    request.ask({ robot: chosen.name, order: firstOrder(chosen), heading: 0, overlap: false, margin: chosen.margin });
+    request.ask({
+      robot: chosen.name,
+      order: firstOrder(chosen),
+      heading: 0,
+      overlap: false,
+      margin: chosen.margin,
+    });
   });
-  name.addEventListener("input", () => { isNamed = true; nameRefusal.setError(null); });
+  name.addEventListener("input", () => {
+    isNamed = true;
+    nameRefusal.setError(null);
+  });
   cycles.addEventListener("input", () => cyclesRefusal.setError(null));
   return {
-    elements: [h("div", { class: "fast-head" },
-      labelled("Robot", robot, "The robot for which you make a gait"),
-      labelled("Name", name, "The name of the new gait in the list", nameRefusal),
-      labelled("Cycles", cycles, "Number of cycles of the gait. The gait starts in the standard stance "
-        + "and ends at rest", cyclesRefusal)), law],
+    elements: [
+      h(
+        "div",
+        { class: "fast-head" },
+        labelled("Robot", robot, "The robot for which you make a gait"),
+        labelled("Name", name, "The name of the new gait in the list", nameRefusal),
+        labelled(
+          "Cycles",
+          cycles,
+          "Number of cycles of the gait. The gait starts in the standard stance " + "and ends at rest",
+          cyclesRefusal,
+        ),
+      ),
+      law,
+    ],
     /** Follows the request, but for a name that a person has typed. */
     follow({ robot: shown }, title) {
       robot.value = shown;
@@ -99,15 +127,31 @@ function form(store, list, close) {
     }
   }
 
-  const buttons = h("div", { class: "buttons" }, h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } }), create);
-  return { content: [h("p", { class: "quiet", text: PURPOSE }), ...head.elements, ...request.elements, search.element, buttons], accept, request, search };
+  const buttons = h(
+    "div",
+    { class: "buttons" },
+    h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } }),
+    create,
+  );
+  return {
+    content: [
+      h("p", { class: "quiet", text: PURPOSE }),
+      ...head.elements,
+      ...request.elements,
+      search.element,
+      buttons,
+    ],
+    accept,
+    request,
+    search,
+  };
 }
 
 let isOpen = false;
 
 /**
  * Asks for a fastest gait.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @param {string|null} job id of the search that is shown first
  * @returns {Promise<string|null>} the new gait's id, or null where the user thought better of it
  */
@@ -118,18 +162,21 @@ export async function askFastest(store, job = null) {
   try {
     addStyles();
     const list = await robots();
-    return await openDialog((close) => {
-      parts = form(store, list, close);
-      const dialog = dialogFrame("Fastest gait", close, parts.accept, ...parts.content);
-      dialog.classList.add("fastest");
-      dialog.querySelector("form").noValidate = true;
-      return dialog;
-    }, () => {
-      const searched = store.state.jobs.find(({ id }) => id === job)?.request ?? {};
-      parts.search.pick(job);
-      unwatch = store.watch(({ jobs }) => [jobs], parts.search.show);
-      parts.request.ask(searched);
-    });
+    return await openDialog(
+      (close) => {
+        parts = form(store, list, close);
+        const dialog = dialogFrame("Fastest gait", close, parts.accept, ...parts.content);
+        dialog.classList.add("fastest");
+        dialog.querySelector("form").noValidate = true;
+        return dialog;
+      },
+      () => {
+        const searched = store.state.jobs.find(({ id }) => id === job)?.request ?? {};
+        parts.search.pick(job);
+        unwatch = store.watch(({ jobs }) => [jobs], parts.search.show);
+        parts.request.ask(searched);
+      },
+    );
   } finally {
     isOpen = false;
     unwatch();

@@ -21,15 +21,29 @@ function isSame(one, other) {
 /** Whether a request has an option's value; on the spot neither direction nor turn of a curve count. */
 function isChosen(option, request) {
   const ignored = request.course === "walk" ? [] : ["heading", "turn"];
-  return Object.entries(changeOf(option)).every(([key, value]) => ignored.includes(key) || isSame(value, request[key]));
+  return Object.entries(changeOf(option)).every(
+    ([key, value]) => ignored.includes(key) || isSame(value, request[key]),
+  );
 }
 
 function chip(option, request, choose) {
   const [price, bar] = [h("b", { class: "number" }), h("i", { class: "fast-bar" })];
-  const input = h("input", { type: "radio", name: `fast-${option.group}`, checked: isChosen(option, request) });
-  const element = h("label", { class: "fast-chip" },
-    input, h("span", { text: textOf(option, request.course !== "walk") }), price, bar);
-  input.addEventListener("change", () => { if (input.checked) choose(changeOf(option)); });
+  const input = h("input", {
+    type: "radio",
+    name: `fast-${option.group}`,
+    checked: isChosen(option, request),
+  });
+  const element = h(
+    "label",
+    { class: "fast-chip" },
+    input,
+    h("span", { text: textOf(option, request.course !== "walk") }),
+    price,
+    bar,
+  );
+  input.addEventListener("change", () => {
+    if (input.checked) choose(changeOf(option));
+  });
   return { element, input, price, bar };
 }
 
@@ -42,22 +56,40 @@ function priceText({ price, sentence }, isLooking) {
 
 /**
  * Builds the rows.
- * @param {(change: object) => void} choose takes what a chosen value changes in the request
+ * @param {(change: Record<string, any>) => void} choose takes what a chosen value changes in the request
  */
 export function optionRows(choose) {
-  const rows = new Map(GROUPS.map(({ group, label, help }) => {
-    const chips = h("div", { class: "fast-chips" });
-    const element = h("fieldset", { class: "fast-row", title: help, hidden: true }, h("legend", { text: label }), chips);
-    return [group, { chips, element }];
-  }));
+  const rows = new Map(
+    GROUPS.map(({ group, label, help }) => {
+      const chips = h("div", { class: "fast-chips" });
+      const element = h(
+        "fieldset",
+        { class: "fast-row", title: help, hidden: true },
+        h("legend", { text: label }),
+        chips,
+      );
+      return [group, { chips, element }];
+    }),
+  );
   const element = h("div", { class: "fast-rows" }, ...[...rows.values()].map((row) => row.element));
   let [options, chips, isLooking] = [[], [], false];
 
   /** Each price of a row, and a bar by which it can be compared with the others. */
   function showGroup(name) {
-    const own = options.map((option, number) => ({ option, chip: chips[number] })).filter(({ option }) => option.group === name);
-    const most = (onTheSpot) => Math.max(SAME, ...own.map(({ option: { price } }) => (price && price.on_the_spot === onTheSpot ? price.pace ?? 0 : 0)));
-    for (const { option, chip: { element: box, price: text, bar } } of own) {
+    const own = options
+      .map((option, number) => ({ option, chip: chips[number] }))
+      .filter(({ option }) => option.group === name);
+    const most = (onTheSpot) =>
+      Math.max(
+        SAME,
+        ...own.map(({ option: { price } }) =>
+          price && price.on_the_spot === onTheSpot ? (price.pace ?? 0) : 0,
+        ),
+      );
+    for (const {
+      option,
+      chip: { element: box, price: text, bar },
+    } of own) {
       const feet = option.group === "order" ? `Feet ${option.value.order.join("-")}. ` : "";
       setText(text, priceText(option, isLooking));
       box.title = `${feet}${option.sentence}`;

@@ -7,8 +7,18 @@ import { optionRows } from "./fastest_options.js";
 import { choiceText, degrees, speedText } from "./fastest_words.js";
 
 const FIRST = {
-  robot: "deltawalker", order: [1, 2, 3, 4], heading: 0, overlap: false, course: "walk", turn: 0, step: null,
-  margin: 0.006, clearance: 0.003, stop_bound: 1.5, sway: 0, cycles: 3,
+  robot: "deltawalker",
+  order: [1, 2, 3, 4],
+  heading: 0,
+  overlap: false,
+  course: "walk",
+  turn: 0,
+  step: null,
+  margin: 0.006,
+  clearance: 0.003,
+  stop_bound: 1.5,
+  sway: 0,
+  cycles: 3,
 };
 
 /** What the chosen gait would be, in a sentence. */
@@ -17,16 +27,19 @@ function outcomeText(option, title, isLooking) {
   if (!option?.price) return `${title}: ${option?.sentence || unknown}`;
   const { price } = option;
   if (price.pace === null) return `${title}: no gait with these values keeps all limits.`;
-  const cycle = price.on_the_spot ? `turns ${degrees(Math.abs(price.turn), 1)}°`
+  const cycle = price.on_the_spot
+    ? `turns ${degrees(Math.abs(price.turn), 1)}°`
     : `walks ${mm(price.step)} mm`;
-  return `${title}: ${speedText(price)} in mid-walk. In one cycle of ${price.moves} moves and `
+  return (
+    `${title}: ${speedText(price)} in mid-walk. In one cycle of ${price.moves} moves and `
     + `${fixed(price.seconds, 1)} s, the robot ${cycle}. `
-    + "The whole gait is slower, because its first and last steps are shorter.";
+    + "The whole gait is slower, because its first and last steps are shorter."
+  );
 }
 
 /**
  * Builds the rows of options with the sentence under them.
- * @param {(request: object, title: string) => void} changed called with each new request
+ * @param {(request: Record<string, any>, title: string) => void} changed called with each new request
  */
 export function fastestRequest(changed) {
   let request = { ...FIRST };
@@ -41,8 +54,12 @@ export function fastestRequest(changed) {
   function showOutcome() {
     const [known, count] = rows.counts();
     setText(outcome, outcomeText(rows.chosen(request), title(), Boolean(looking)));
-    setText(state, looking && known < count ? `The studio is computing the speeds: `
-      + `${known} of ${count} are ready.` : "");
+    setText(
+      state,
+      looking && known < count
+        ? `The studio is computing the speeds: ` + `${known} of ${count} are ready.`
+        : "",
+    );
   }
 
   function refuse(sentence) {
@@ -52,7 +69,11 @@ export function fastestRequest(changed) {
 
   function hear({ options, prices, sentence }) {
     if (options) {
-      names = new Map(options.filter(({ group }) => group === "order").map(({ value, name }) => [value.order.join("-"), name]));
+      names = new Map(
+        options
+          .filter(({ group }) => group === "order")
+          .map(({ value, name }) => [value.order.join("-"), name]),
+      );
       rows.show(options, request);
       changed(request, nameOf(request.order) ?? request.order.join("-"));
     }
@@ -71,7 +92,9 @@ export function fastestRequest(changed) {
     rows.forget();
     showOutcome();
     try {
-      await fastestApi.prices(request, own.signal, (line) => { if (looking === own) hear(line); });
+      await fastestApi.prices(request, own.signal, (line) => {
+        if (looking === own) hear(line);
+      });
     } catch ({ message }) {
       if (looking === own) refuse(message);
     }
@@ -88,7 +111,9 @@ export function fastestRequest(changed) {
     ask,
     refuse,
     /** Changes what has no price. */
-    set(change) { request = { ...request, ...change }; },
+    set(change) {
+      request = { ...request, ...change };
+    },
     end() {
       looking?.abort();
       looking = null;

@@ -19,7 +19,8 @@ export function priceOf({ speed, turn_rate: rate, on_the_spot: onTheSpot }) {
 }
 
 /** A foot order: its name where it has one, else its feet. */
-export const orderText = ({ order, overlap }, name = null) => `${name ?? order.join("-")}${overlap ? ", overlapping" : ""}`;
+export const orderText = ({ order, overlap }, name = null) =>
+  `${name ?? order.join("-")}${overlap ? ", overlapping" : ""}`;
 
 export const headingText = (heading) => (Math.abs(heading) < 1e-9 ? "along x" : `at ${degrees(heading)}°`);
 
@@ -36,31 +37,53 @@ export function courseText({ course, turn }) {
 }
 
 const millimetres = (value) => `${mm(value, 0)} mm`;
-const STOP = "Longest time from a press on Stop until the robot reacts. "
+const STOP =
+  "Longest time from a press on Stop until the robot reacts. "
   + "The robot reacts to Stop only between two moves";
-const MARGIN = "Least distance between the centre of mass and the edge of the support polygon, during "
-  + "every move";
-const SWAY = "How far the body may turn to the left and right of its course. "
+const MARGIN =
+  "Least distance between the centre of mass and the edge of the support polygon, during " + "every move";
+const SWAY =
+  "How far the body may turn to the left and right of its course. "
   + "When the body sways, the soles of the "
   + "feet turn on the ground. Gaits with sway have not been tested with flat shoes yet";
 
 /** The options: what each is called, what it means, and its values in words. */
 export const GROUPS = [
-  { group: "course", label: "Course", help: "The robot walks straight, walks a curve, or turns on the spot. "
-    + "The angle of a curve is the turn of the robot in one cycle", text: courseText },
-  { group: "order", label: "Foot order", help: "The order in which the feet step, and the direction in "
-    + "which the robot walks" },
+  {
+    group: "course",
+    label: "Course",
+    help:
+      "The robot walks straight, walks a curve, or turns on the spot. "
+      + "The angle of a curve is the turn of the robot in one cycle",
+    text: courseText,
+  },
+  {
+    group: "order",
+    label: "Foot order",
+    help: "The order in which the feet step, and the direction in " + "which the robot walks",
+  },
   { group: "stop_bound", label: "Stop bound", help: STOP, text: (value) => `${fixed(value, 1)} s` },
   { group: "margin", label: "Stability margin", help: MARGIN, text: millimetres },
-  { group: "step", label: "Step", help: "How far the robot walks in one cycle", text: (value) => (value === null ? "fastest" : millimetres(value)) },
-  { group: "clearance", label: "Clearance", help: "Each foot rises at least this high in its swing", text: millimetres },
+  {
+    group: "step",
+    label: "Step",
+    help: "How far the robot walks in one cycle",
+    text: (value) => (value === null ? "fastest" : millimetres(value)),
+  },
+  {
+    group: "clearance",
+    label: "Clearance",
+    help: "Each foot rises at least this high in its swing",
+    text: millimetres,
+  },
   { group: "sway", label: "Sway", help: SWAY, text: (value) => `${degrees(value)}°` },
 ];
 
 /** What a search was asked for beside foot order, margin and stop bound. */
 export function searchedText(request) {
   const words = [courseText(request)];
-  if (request.course === "walk") words.push(`step ${request.step === null ? "fastest" : `${mm(request.step)} mm`}`);
+  if (request.course === "walk")
+    words.push(`step ${request.step === null ? "fastest" : `${mm(request.step)} mm`}`);
   words.push(`clearance ${mm(request.clearance)} mm`, `sway ${degrees(request.sway)}°`);
   return words.join(", ");
 }

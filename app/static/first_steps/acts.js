@@ -9,7 +9,8 @@ import { openView } from "../timeline/views.js";
 
 /** A drawn gait of the program, for which remedies are looked for. */
 const DRAWN = "walk";
-const REAL = "This studio drives a real robot. "
+const REAL =
+  "This studio drives a real robot. "
   + "To try this exercise with an emulated robot, start the studio with the option --robot emulator.";
 const STEP_LABEL = /^(Step|Goal) to /;
 
@@ -40,59 +41,84 @@ function nextButton() {
 }
 
 /**
- * @typedef {object} Act
+ * @typedef {Record<string, any>} Act
  * @property {string} key
  * @property {string} title
- * @property {(state: object) => string} sentence
- * @property {(state: object) => HTMLElement|null} place the control; brings it into sight
+ * @property {(state: Record<string, any>) => string} sentence
+ * @property {(state: Record<string, any>) => HTMLElement|null} place the control; brings it into sight
  */
 
 /** @type {Act[]} */
 export const ACTS = [
   {
-    key: "play", title: "Play the walk", place: () => byId("play"),
+    key: "play",
+    title: "Play the walk",
+    place: () => byId("play"),
     sentence: () => "Press the button Play below the 3D preview, or press the space bar.",
   },
   {
-    key: "step", title: "Drag the step", place: stepField,
-    sentence: () => "Drag the word Step to the left or to the right. "
+    key: "step",
+    title: "Drag the step",
+    place: stepField,
+    sentence: () =>
+      "Drag the word Step to the left or to the right. "
       + "The plan and the robot in 3D change while you drag.",
   },
   {
-    key: "remedy", title: "Make the step too long, then use a remedy", place: remedyPlace,
-    sentence: ({ view }) => (view && isDrawn(view.document)
-      ? "Set Step to 30 mm. No motion is possible with this step. "
-        + "The page then shows remedies: changes that make a motion possible. "
-        + "Press “Use this” beside one remedy."
-      : "In the list of gaits, under Examples, choose Walk 10 mm. Then set Step to 30 mm."),
+    key: "remedy",
+    title: "Make the step too long, then use a remedy",
+    place: remedyPlace,
+    sentence: ({ view }) =>
+      view && isDrawn(view.document)
+        ? "Set Step to 30 mm. No motion is possible with this step. "
+          + "The page then shows remedies: changes that make a motion possible. "
+          + "Press “Use this” beside one remedy."
+        : "In the list of gaits, under Examples, choose Walk 10 mm. Then set Step to 30 mm.",
   },
   {
-    key: "send", title: "Send the gait to the emulated robot", place: nextButton,
-    sentence: ({ robot }) => (robot?.emulated === false ? REAL
-      : "Press the button at the bottom of this panel until the robot walks. "
-        + "The button always does the next action: Simulate, Check, Approve, Connect, Arm, Send."),
+    key: "send",
+    title: "Send the gait to the emulated robot",
+    place: nextButton,
+    sentence: ({ robot }) =>
+      robot?.emulated === false
+        ? REAL
+        : "Press the button at the bottom of this panel until the robot walks. "
+          + "The button always does the next action: Simulate, Check, Approve, Connect, Arm, Send.",
   },
 ];
 
 /**
  * Calls `done` with the key of each act that the person has done in this page.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @param {EventTarget} playback
  * @param {(key: string) => void} done
  */
 export function watchActs(store, playback, done) {
-  playback.addEventListener("state", ({ detail }) => { if (detail.playing) done("play"); });
+  playback.addEventListener("state", ({ detail }) => {
+    if (detail.playing) done("play");
+  });
   let offered = [];
-  store.watch(({ remedies }) => [remedies], ({ remedies }) => {
-    if (remedies) offered = remedies.list.map(({ label }) => label);
-  });
-  store.watch(({ pending }) => [pending], ({ pending }) => {
-    for (const { label } of pending) {
-      if (STEP_LABEL.test(label)) done("step");
-      if (offered.includes(label)) done("remedy");
-    }
-  });
-  store.watch(({ robot }) => [planIsOn(robot)], ({ robot }) => { if (planIsOn(robot)) done("send"); });
+  store.watch(
+    ({ remedies }) => [remedies],
+    ({ remedies }) => {
+      if (remedies) offered = remedies.list.map(({ label }) => label);
+    },
+  );
+  store.watch(
+    ({ pending }) => [pending],
+    ({ pending }) => {
+      for (const { label } of pending) {
+        if (STEP_LABEL.test(label)) done("step");
+        if (offered.includes(label)) done("remedy");
+      }
+    },
+  );
+  store.watch(
+    ({ robot }) => [planIsOn(robot)],
+    ({ robot }) => {
+      if (planIsOn(robot)) done("send");
+    },
+  );
 }
 
 /** Shows the place of an act: under the keyboard, and outlined until something else has the focus. */
@@ -102,7 +128,13 @@ export function showPlace(act, state) {
   if (!place) return;
   const outlined = place.closest(".field") ?? place;
   outlined.dataset.shownPlace = "";
-  place.addEventListener("blur", () => { delete outlined.dataset.shownPlace; }, { once: true });
+  place.addEventListener(
+    "blur",
+    () => {
+      delete outlined.dataset.shownPlace;
+    },
+    { once: true },
+  );
   place.scrollIntoView({ block: "nearest" });
   place.focus();
 }

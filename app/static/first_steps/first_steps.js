@@ -12,8 +12,8 @@ import { planIsOn } from "../state/store.js";
 import { ACTS, showPlace, watchActs } from "./acts.js";
 
 const KEY = "first-steps";
-const ALL_DONE = "You have done all four exercises. "
-  + "To see this card again, press ? and choose First steps.";
+const ALL_DONE =
+  "You have done all four exercises. " + "To see this card again, press ? and choose First steps.";
 
 /** Whether nothing was made in this data folder yet: no gait, no edit, no job and no run. */
 async function isFirstRun({ gaits, jobs }) {
@@ -26,11 +26,19 @@ async function isFirstRun({ gaits, jobs }) {
 function actItem(act, { store, opened }) {
   const mark = h("i", { class: "act-mark", "aria-hidden": "true" });
   const word = h("span", { class: "hidden-text" });
-  const title = h("button", { class: "act-title", type: "button", on: { click: () => opened(act.key) } },
-    mark, h("span", { text: act.title }), word);
+  const title = h(
+    "button",
+    { class: "act-title", type: "button", on: { click: () => opened(act.key) } },
+    mark,
+    h("span", { text: act.title }),
+    word,
+  );
   const sentence = h("p", {});
   const where = h("button", {
-    class: "link", type: "button", text: "Show me where", "aria-label": `Show me where: ${act.title}`,
+    class: "link",
+    type: "button",
+    text: "Show me where",
+    "aria-label": `Show me where: ${act.title}`,
     on: { click: () => showPlace(act, store.state) },
   });
   const body = h("div", { class: "act-body" }, sentence, where);
@@ -50,7 +58,7 @@ function actItem(act, { store, opened }) {
 
 /**
  * Builds the card.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @param {EventTarget} playback
  */
 export function mountFirstSteps(store, playback) {
@@ -71,14 +79,22 @@ export function mountFirstSteps(store, playback) {
 
   const count = h("span", { class: "quiet", role: "status" });
   const end = h("p", { class: "act-body", text: ALL_DONE });
-  const close = h("button", {
-    class: "plain icon-only", type: "button", "aria-label": "Close first steps",
-    title: "Close this card. To see the card again, press ? and choose First steps",
-  }, icon("close"));
+  const close = h(
+    "button",
+    {
+      class: "plain icon-only",
+      type: "button",
+      "aria-label": "Close first steps",
+      title: "Close this card. To see the card again, press ? and choose First steps",
+    },
+    icon("close"),
+  );
   const items = new Map(ACTS.map((act) => [act.key, actItem(act, { store, opened: open })]));
   card.append(
     h("div", { class: "first-steps-head" }, h("h3", { text: "First steps" }), count, close),
-    h("ol", { role: "list" }, ...[...items.values()].map(({ element }) => element)), end);
+    h("ol", { role: "list" }, ...[...items.values()].map(({ element }) => element)),
+    end,
+  );
 
   function show() {
     const { state } = store;
@@ -115,9 +131,17 @@ export function mountFirstSteps(store, playback) {
   store.watch(({ view, robot }) => [view?.document, robot?.emulated, planIsOn(robot)], show);
   if (kept.begun || kept.closed) return;
   let isAsked = false;
-  store.watch(({ greeted }) => [greeted], ({ greeted, ...state }) => {
-    if (!greeted || isAsked) return;
-    isAsked = true;
-    isFirstRun(state).then((isFirst) => { if (isFirst && !kept.begun) begin(); }, () => {});
-  });
+  store.watch(
+    ({ greeted }) => [greeted],
+    ({ greeted, ...state }) => {
+      if (!greeted || isAsked) return;
+      isAsked = true;
+      isFirstRun(state).then(
+        (isFirst) => {
+          if (isFirst && !kept.begun) begin();
+        },
+        () => {},
+      );
+    },
+  );
 }

@@ -8,21 +8,24 @@ import { drawerIsOpen, onDrawer, openDrawer } from "../shell/drawers.js";
 function cameraGroup(store, open) {
   const element = h("details", { class: "more after-run" }, h("summary", { text: "Cameras" }));
   let list = null;
-  element.addEventListener("toggle", attempt(async () => {
-    if (!element.open) return;
-    if (!list) {
-      const { cameraList } = await import("../cameras/camera_list.js");
-      list = cameraList(store, { watch: (camera) => open({ camera }), setUp: (setup) => open({ setup }) });
-      element.append(list.element);
-    }
-    list.refresh();
-  }));
+  element.addEventListener(
+    "toggle",
+    attempt(async () => {
+      if (!element.open) return;
+      if (!list) {
+        const { cameraList } = await import("../cameras/camera_list.js");
+        list = cameraList(store, { watch: (camera) => open({ camera }), setUp: (setup) => open({ setup }) });
+        element.append(list.element);
+      }
+      list.refresh();
+    }),
+  );
   return element;
 }
 
 /**
  * Fills the drawer of trials when it is opened, and builds the link under the robot.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @returns {() => boolean} what Esc does
  */
 export function mountTrialEntry(store) {
@@ -44,18 +47,33 @@ export function mountTrialEntry(store) {
     }
   }
 
-  onDrawer("trials", { opened: () => { if (!isGoing) open(); }, closed: () => panel?.closed() });
-  byId("robot").append(cameraGroup(store, open));
-  store.watch(({ trialWanted }) => [trialWanted], ({ trialWanted }) => {
-    if (!trialWanted) return;
-    store.set({ trialWanted: null });
-    open(trialWanted);
+  onDrawer("trials", {
+    opened: () => {
+      if (!isGoing) open();
+    },
+    closed: () => panel?.closed(),
   });
-  store.watch(({ trialMade }) => [trialMade], attempt(async ({ trialMade }) => {
-    if (trialMade?.id) (await import("../cameras/camera_recordings.js")).announceTrial(trialMade.id, open);
-  }));
-  store.watch(({ videoChanged }) => [videoChanged], attempt(async ({ videoChanged }) => {
-    if (videoChanged?.run && videoChanged.state === "kept" && videoChanged.sentence) (await import("../cameras/camera_recordings.js")).announceRecording(videoChanged, open);
-  }));
+  byId("robot").append(cameraGroup(store, open));
+  store.watch(
+    ({ trialWanted }) => [trialWanted],
+    ({ trialWanted }) => {
+      if (!trialWanted) return;
+      store.set({ trialWanted: null });
+      open(trialWanted);
+    },
+  );
+  store.watch(
+    ({ trialMade }) => [trialMade],
+    attempt(async ({ trialMade }) => {
+      if (trialMade?.id) (await import("../cameras/camera_recordings.js")).announceTrial(trialMade.id, open);
+    }),
+  );
+  store.watch(
+    ({ videoChanged }) => [videoChanged],
+    attempt(async ({ videoChanged }) => {
+      if (videoChanged?.run && videoChanged.state === "kept" && videoChanged.sentence)
+        (await import("../cameras/camera_recordings.js")).announceRecording(videoChanged, open);
+    }),
+  );
   return () => Boolean(panel?.leave());
 }

@@ -21,7 +21,11 @@ function addStyles() {
 /** The panel and its content; `begin()` returns whether something else was opened since. */
 function buildPanel() {
   const body = h("div", { class: "runs-body" });
-  const close = h("button", { class: "plain icon-only", "aria-label": "Close trials", title: "Close (Esc)" }, icon("close"));
+  const close = h(
+    "button",
+    { class: "plain icon-only", "aria-label": "Close trials", title: "Close (Esc)" },
+    icon("close"),
+  );
   byId("drawer-trials").append(h("header", {}, h("h2", { text: "Trials" }), close), body);
   const begin = ticket();
   let left = () => {};
@@ -56,36 +60,55 @@ function buildPanel() {
 
 /**
  * Builds the panel, closed.
- * @param {object} store
- * @returns {{open: () => void, go: (wanted: object) => void, leave: () => boolean, closed: () => void}} `leave` closes its drawer; true where
+ * @param {import("../state/store.js").Store} store
+ * @returns {{open: () => void, go: (wanted: Record<string, any>) => void, leave: () => boolean, closed: () => void}} `leave` closes its drawer; true where
  *   it was open; `closed` is called when the drawer was closed
  */
 export function mountTrials(store) {
   addStyles();
   const { begin, show, leave, closed } = buildPanel();
-  const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
+  const tracks = tracksParts(
+    store,
+    attempt((gait) => selectGait(store, gait)),
+  );
   const page = { store, show, begin, all: () => all(), one: (id) => one(id) };
 
   /** Shows what `make` returns, unless something else was opened meanwhile. */
-  const shown = (make) => attempt(async (wanted) => {
-    const isOld = begin();
-    const { element, leave: gone } = await make(wanted);
-    if (isOld()) gone?.();
-    else show(element, gone);
-  });
+  const shown = (make) =>
+    attempt(async (wanted) => {
+      const isOld = begin();
+      const { element, leave: gone } = await make(wanted);
+      if (isOld()) gone?.();
+      else show(element, gone);
+    });
 
   /** Calls a function of a module that is loaded when it is first needed. */
-  const later = (load, name) => attempt(async (...values) => {
-    const isOld = begin();
-    const { [name]: act } = await load();
-    if (!isOld()) act(page, ...values);
-  });
+  const later = (load, name) =>
+    attempt(async (...values) => {
+      const isOld = begin();
+      const { [name]: act } = await load();
+      if (!isOld()) act(page, ...values);
+    });
   const ofVideos = () => import("../videos/video.js");
   const ofCameras = () => import("../cameras/camera_list.js");
   const [videos, oneVideo] = [later(ofVideos, "openVideos"), later(ofVideos, "openVideoOf")];
-  const [cameras, look, setUp] = [later(ofCameras, "openCameras"), later(ofCameras, "watchCamera"), later(ofCameras, "setUpCamera")];
+  const [cameras, look, setUp] = [
+    later(ofCameras, "openCameras"),
+    later(ofCameras, "watchCamera"),
+    later(ofCameras, "setUpCamera"),
+  ];
   const learn = later(() => import("../learning/learning.js"), "openLearning");
-  const all = shown(() => trialList({ store, open: one, add, band, videos: () => videos(), cameras: () => cameras(), learn: () => learn() }));
+  const all = shown(() =>
+    trialList({
+      store,
+      open: one,
+      add,
+      band,
+      videos: () => videos(),
+      cameras: () => cameras(),
+      learn: () => learn(),
+    }),
+  );
   const one = shown((id) => trialDetail(store, id, { all, remove, tracks, video: oneVideo }));
   const band = shown((group) => trialBand(group, { all, open: one, tracks }));
 
@@ -97,10 +120,23 @@ export function mountTrials(store) {
   const remove = attempt(async ({ id, name }) => {
     await trialApi.remove(id);
     await all();
-    toast(`The trial “${name}” is deleted.`, { action: { label: "Undo", act: attempt(async () => { await trialApi.restore(id); one(id); }) } });
+    toast(`The trial “${name}” is deleted.`, {
+      action: {
+        label: "Undo",
+        act: attempt(async () => {
+          await trialApi.restore(id);
+          one(id);
+        }),
+      },
+    });
   });
 
-  store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) leave(); });
+  store.watch(
+    ({ robot }) => [runIsOn(robot)],
+    ({ robot }) => {
+      if (runIsOn(robot)) leave();
+    },
+  );
 
   /** Opens a trial, a video, a camera's picture or its setup for another part of the page. */
   function go({ trial, video, camera, setup }) {

@@ -11,11 +11,13 @@ import { learnedResult } from "./learning_result.js";
 const POLL_MS = 1000;
 /** Longest wait between two polls of a studio that does not answer. */
 const MOST_POLL_MS = 30000;
-const PURPOSE = "Learning finds physics parameters that no data sheet gives, such as friction, backlash "
+const PURPOSE =
+  "Learning finds physics parameters that no data sheet gives, such as friction, backlash "
   + "and centre of mass. "
   + "For this, learning compares simulated walks with walks of the real robot. "
   + "To use the fitted values in simulations, keep them as a set. Then choose the set in Simulate.";
-const TABLE_HELP = "Table: one CSV file with one row for each trajectory, like trajectory_averages.csv "
+const TABLE_HELP =
+  "Table: one CSV file with one row for each trajectory, like trajectory_averages.csv "
   + "(rows TrajAa, TrajAb, …). "
   + "Trajectories: the CSV files of the motions that the robot walked, "
   + "such as walk_a.csv, ambl_b.csv, mtri_c.csv and adjs_d.csv.";
@@ -23,11 +25,17 @@ const OPEN = new Set(["running", "cancelling"]);
 
 function addStyles() {
   const href = new URL("./learning.css", import.meta.url).pathname;
-  if (!document.querySelector(`link[href="${href}"]`)) document.head.append(h("link", { rel: "stylesheet", href }));
+  if (!document.querySelector(`link[href="${href}"]`))
+    document.head.append(h("link", { rel: "stylesheet", href }));
 }
 
 /** A time that is only known roughly. */
-const aboutTime = (seconds) => (seconds < 90 ? `${fixed(seconds, 0)} s` : seconds < 5400 ? `${fixed(seconds / 60, 0)} min` : `${fixed(seconds / 3600, 1)} h`);
+const aboutTime = (seconds) =>
+  seconds < 90
+    ? `${fixed(seconds, 0)} s`
+    : seconds < 5400
+      ? `${fixed(seconds / 60, 0)} min`
+      : `${fixed(seconds / 3600, 1)} h`;
 
 function progressText({ state, done, total, left_seconds: left = null }) {
   if (state !== "running") return "cancelling";
@@ -36,8 +44,23 @@ function progressText({ state, done, total, left_seconds: left = null }) {
 
 /** The running job: its data, a bar, how many simulations are done, and Cancel. */
 function progressPart(cancel) {
-  const [bar, source, text] = [h("i"), h("p"), h("p", { class: "quiet", role: "status", "aria-label": "Learning" })];
-  const element = h("div", {}, source, h("div", { class: "simulating" }, h("div", { class: "progress" }, bar), h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } })), text);
+  const [bar, source, text] = [
+    h("i"),
+    h("p"),
+    h("p", { class: "quiet", role: "status", "aria-label": "Learning" }),
+  ];
+  const element = h(
+    "div",
+    {},
+    source,
+    h(
+      "div",
+      { class: "simulating" },
+      h("div", { class: "progress" }, bar),
+      h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } }),
+    ),
+    text,
+  );
   return {
     element,
     show(job) {
@@ -46,50 +69,113 @@ function progressPart(cancel) {
       setText(source, job.source && `Learning from ${job.source}`);
       setText(text, progressText(job));
     },
-    showError(sentence) { setText(text, sentence); },
+    showError(sentence) {
+      setText(text, sentence);
+    },
   };
 }
 
 function jobRow(job, open) {
-  const words = [h("span", { class: "run-line" }, h("b", { text: job.source }), h("span", { text: job.state })),
-    h("span", { class: "run-line quiet" }, h("span", { text: [job.by, clockTime(job.made)].filter(Boolean).join(" · ") }))];
-  if (job.state !== "done") return h("li", { title: job.sentence }, h("div", { class: "run-row" }, ...words, h("span", { class: "quiet", text: job.sentence })));
-  return h("li", {}, h("button", { class: "run-row", title: job.sentence, on: { click: () => open(job.id) } }, ...words));
+  const words = [
+    h("span", { class: "run-line" }, h("b", { text: job.source }), h("span", { text: job.state })),
+    h(
+      "span",
+      { class: "run-line quiet" },
+      h("span", { text: [job.by, clockTime(job.made)].filter(Boolean).join(" · ") }),
+    ),
+  ];
+  if (job.state !== "done")
+    return h(
+      "li",
+      { title: job.sentence },
+      h("div", { class: "run-row" }, ...words, h("span", { class: "quiet", text: job.sentence })),
+    );
+  return h(
+    "li",
+    {},
+    h("button", { class: "run-row", title: job.sentence, on: { click: () => open(job.id) } }, ...words),
+  );
 }
 
 function setRow(set, remove) {
-  return h("li", { class: "learned-set" }, h("span", { title: set.title }, h("b", { text: set.key }), h("span", { class: "quiet", text: ` ${[set.note, set.by, clockTime(set.made)].filter(Boolean).join(" · ")}` })),
-    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`,
+  return h(
+    "li",
+    { class: "learned-set" },
+    h(
+      "span",
+      { title: set.title },
+      h("b", { text: set.key }),
+      h("span", {
+        class: "quiet",
+        text: ` ${[set.note, set.by, clockTime(set.made)].filter(Boolean).join(" · ")}`,
+      }),
+    ),
+    h("button", {
+      class: "link",
+      text: "Delete",
+      "aria-label": `Delete ${set.key}`,
       on: { click: () => remove(set) },
-      title: "Deletes this set of physics parameters. Undo restores the set. "
-        + "While the set is deleted, simulations that used this set count as out of date" }));
+      title:
+        "Deletes this set of physics parameters. Undo restores the set. "
+        + "While the set is deleted, simulations that used this set count as out of date",
+    }),
+  );
 }
 
 /**
  * Opens learning in the panel of trials.
- * @param {{store: object, show: (element: Element, onLeave?: () => void) => void, begin: () => () => boolean, all: () => void}} page
+ * @param {{store: Record<string, any>, show: (element: Element, onLeave?: () => void) => void, begin: () => () => boolean, all: () => void}} page
  *   `begin()` returns a function that returns whether something else was opened since
  */
 export async function openLearning(page) {
   addStyles();
   const { store, show, begin, all } = page;
   let timer = null;
-  const leave = () => { clearTimeout(timer); timer = null; };
+  const leave = () => {
+    clearTimeout(timer);
+    timer = null;
+  };
   const setsChanged = () => store.set({ physicsSets: (store.state.physicsSets ?? 0) + 1 });
 
   const list = attempt(async () => {
     const isOld = begin();
-    const [{ trials }, jobs, sets] = await Promise.all([trialApi.list(), learningApi.courses(), learningApi.sets()]);
+    const [{ trials }, jobs, sets] = await Promise.all([
+      trialApi.list(),
+      learningApi.courses(),
+      learningApi.sets(),
+    ]);
     if (isOld()) return;
     const on = jobs.find(({ state }) => OPEN.has(state));
     const ended = jobs.filter(({ state }) => !OPEN.has(state));
-    const rows = (label, head, items) => (items.length ? [h("h2", { text: head }), h("ul", { class: "run-list", role: "list", "aria-label": label }, ...items)] : []);
+    const rows = (label, head, items) =>
+      items.length
+        ? [
+            h("h2", { text: head }),
+            h("ul", { class: "run-list", role: "list", "aria-label": label }, ...items),
+          ]
+        : [];
     const followed = on && following(on);
-    show(h("div", { class: "run-all learning" }, h("button", { class: "link", text: "All trials", on: { click: all } }),
-      h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })), h("p", { class: "quiet", text: PURPOSE }),
-      ...(followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)]),
-      ...rows("Learning jobs", "Learned", ended.map((job) => jobRow(job, open))),
-      ...rows("Sets of physics parameters", "Sets", sets.map((set) => setRow(set, remove)))), leave);
+    show(
+      h(
+        "div",
+        { class: "run-all learning" },
+        h("button", { class: "link", text: "All trials", on: { click: all } }),
+        h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })),
+        h("p", { class: "quiet", text: PURPOSE }),
+        ...(followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)]),
+        ...rows(
+          "Learning jobs",
+          "Learned",
+          ended.map((job) => jobRow(job, open)),
+        ),
+        ...rows(
+          "Sets of physics parameters",
+          "Sets",
+          sets.map((set) => setRow(set, remove)),
+        ),
+      ),
+      leave,
+    );
     followed?.begin();
   });
 
@@ -97,7 +183,9 @@ export async function openLearning(page) {
     const progress = progressPart(attempt(async () => progress.show(await learningApi.cancel(job.id))));
     progress.show(job);
     let wait = POLL_MS;
-    const again = () => { timer = setTimeout(poll, wait); };
+    const again = () => {
+      timer = setTimeout(poll, wait);
+    };
     async function poll() {
       try {
         const now = await learningApi.course(job.id);
@@ -143,8 +231,10 @@ export async function openLearning(page) {
   const keep = attempt(async ({ id }, name) => {
     const { key } = await changed(() => learningApi.keep(id, name));
     setsChanged();
-    toast(`The set “${key}” is saved. `
-      + "To use the set in simulations, choose the set in Simulate under Physics.");
+    toast(
+      `The set “${key}” is saved. `
+        + "To use the set in simulations, choose the set in Simulate under Physics.",
+    );
   });
 
   const remove = attempt(async (set) => {
@@ -162,17 +252,44 @@ export async function openLearning(page) {
 
 /** Files of the published trials. */
 function tableChoice(start) {
-  const file = (name, multiple) => h("input", { type: "file", accept: ".csv,text/csv", "aria-label": name, multiple, required: true });
-  const [table, trajectories] = [file("Table of trials", false), file("Trajectories that the robot walked", true)];
-  const iterations = h("input", { type: "number", "aria-label": "Iterations of the gait in each trial", min: "1", max: "50", step: "1", value: "3", required: true });
+  const file = (name, multiple) =>
+    h("input", { type: "file", accept: ".csv,text/csv", "aria-label": name, multiple, required: true });
+  const [table, trajectories] = [
+    file("Table of trials", false),
+    file("Trajectories that the robot walked", true),
+  ];
+  const iterations = h("input", {
+    type: "number",
+    "aria-label": "Iterations of the gait in each trial",
+    min: "1",
+    max: "50",
+    step: "1",
+    value: "3",
+    required: true,
+  });
   const submit = attempt(async (event) => {
     event.preventDefault();
     const texts = await Promise.all([...trajectories.files].map(async (one) => [one.name, await one.text()]));
-    start({ table: { csv: await table.files[0].text(), trajectories: Object.fromEntries(texts), iterations: iterations.valueAsNumber } });
+    start({
+      table: {
+        csv: await table.files[0].text(),
+        trajectories: Object.fromEntries(texts),
+        iterations: iterations.valueAsNumber,
+      },
+    });
   });
-  return h("details", { class: "run-states" }, h("summary", { text: "Learn from a published table of trials" }),
-    h("form", { class: "trial-form", on: { submit } },
+  return h(
+    "details",
+    { class: "run-states" },
+    h("summary", { text: "Learn from a published table of trials" }),
+    h(
+      "form",
+      { class: "trial-form", on: { submit } },
       h("p", { class: "quiet", text: TABLE_HELP }),
-      h("label", {}, h("span", { text: "Table" }), table), h("label", {}, h("span", { text: "Trajectories" }), trajectories),
-      h("label", {}, h("span", { text: "Iterations" }), iterations), h("button", { class: "primary", text: "Learn from the table" })));
+      h("label", {}, h("span", { text: "Table" }), table),
+      h("label", {}, h("span", { text: "Trajectories" }), trajectories),
+      h("label", {}, h("span", { text: "Iterations" }), iterations),
+      h("button", { class: "primary", text: "Learn from the table" }),
+    ),
+  );
 }

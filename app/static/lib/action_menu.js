@@ -8,7 +8,7 @@ import { attempt, toast } from "./toasts.js";
 const GAP = 4;
 
 /**
- * @typedef {object} Entry
+ * @typedef {Record<string, any>} Entry
  * @property {string} text
  * @property {string} help
  * @property {() => void} act
@@ -21,7 +21,9 @@ function place(button, menu) {
   const { bottom } = button.getBoundingClientRect();
   const { left, width } = (button.closest(".drawer") ?? button).getBoundingClientRect();
   Object.assign(menu.style, {
-    left: `${left + 2 * GAP}px`, top: `${bottom + GAP}px`, width: `${width - 4 * GAP}px`,
+    left: `${left + 2 * GAP}px`,
+    top: `${bottom + GAP}px`,
+    width: `${width - 4 * GAP}px`,
     maxHeight: `${innerHeight - bottom - 2 * GAP}px`,
   });
 }
@@ -42,9 +44,19 @@ export function actionMenu({ name, help, entries }) {
   const items = [];
   const groups = new Map();
   const button = h("button", {
-    class: "link menu-button", "aria-haspopup": "menu", "aria-expanded": "false", title: help, text: name,
+    class: "link menu-button",
+    "aria-haspopup": "menu",
+    "aria-expanded": "false",
+    title: help,
+    text: name,
   });
-  const menu = h("div", { class: "menu", role: "menu", "aria-label": name, data: { arrows: "" }, hidden: true });
+  const menu = h("div", {
+    class: "menu",
+    role: "menu",
+    "aria-label": name,
+    data: { arrows: "" },
+    hidden: true,
+  });
   const element = h("div", { class: "check-menu act-menu" }, button, menu);
   const questions = [];
   const prepare = () => {
@@ -52,7 +64,9 @@ export function actionMenu({ name, help, entries }) {
     questions.forEach((question) => question());
   };
   button.addEventListener("click", prepare);
-  button.addEventListener("keydown", ({ key }) => { if (key === "ArrowDown") prepare(); });
+  button.addEventListener("keydown", ({ key }) => {
+    if (key === "ArrowDown") prepare();
+  });
 
   const insert = (item, group, at) => {
     const next = items.at(at);
@@ -70,12 +84,16 @@ export function actionMenu({ name, help, entries }) {
 
   const add = ({ text, help: own, act, group, refusal }, at = items.length) => {
     const item = h("button", { role: "menuitem", tabindex: "-1", title: own, text });
-    onPress(item, () => {
-      menu.hidden = true;
-      button.setAttribute("aria-expanded", "false");
-      button.focus();
-      act();
-    }, (why) => toast(why));
+    onPress(
+      item,
+      () => {
+        menu.hidden = true;
+        button.setAttribute("aria-expanded", "false");
+        button.focus();
+        act();
+      },
+      (why) => toast(why),
+    );
     if (refusal) questions.push(attempt(async () => setAllowed(item, await refusal(), own)));
     insert(item, group, at);
   };

@@ -4,7 +4,8 @@ import { tableCell } from "./table_cell.js";
 
 /** Rows as lines with tabs, and the text around them. */
 function plainText(copied) {
-  for (const row of copied.querySelectorAll("tr")) row.replaceWith(`${[...row.cells].map((cell) => cell.textContent).join("\t")}\n`);
+  for (const row of copied.querySelectorAll("tr"))
+    row.replaceWith(`${[...row.cells].map((cell) => cell.textContent).join("\t")}\n`);
   return copied.textContent;
 }
 
@@ -34,10 +35,19 @@ function contentsOf(selection) {
 export function mountCopiedTables() {
   document.addEventListener("copy", (event) => {
     const selection = getSelection();
-    if (event.defaultPrevented || !selection || selection.isCollapsed || event.target?.closest?.("input, textarea")) return;
+    if (
+      event.defaultPrevented
+      || !selection
+      || selection.isCollapsed
+      || event.target?.closest?.("input, textarea")
+    )
+      return;
     const copied = contentsOf(selection);
     if (!markCells(copied)) return;
-    event.clipboardData.setData("text/html", copied.querySelector("table") ? copied.innerHTML : `<table>${copied.innerHTML}</table>`);
+    event.clipboardData.setData(
+      "text/html",
+      copied.querySelector("table") ? copied.innerHTML : `<table>${copied.innerHTML}</table>`,
+    );
     event.clipboardData.setData("text/plain", plainText(copied));
     event.preventDefault();
   });

@@ -8,7 +8,12 @@ export function mountDecimalComma() {
   if (readsCommas()) return;
   document.addEventListener("beforeinput", (event) => {
     const text = event.data ?? event.dataTransfer?.getData("text/plain");
-    if (!event.target.matches?.("input[type=number]") || !event.inputType.startsWith("insert") || !text?.includes(",")) return;
+    if (
+      !event.target.matches?.("input[type=number]")
+      || !event.inputType.startsWith("insert")
+      || !text?.includes(",")
+    )
+      return;
     event.preventDefault();
     document.execCommand("insertText", false, text.replaceAll(",", "."));
   });

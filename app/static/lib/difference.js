@@ -5,5 +5,8 @@ import { h } from "./dom.js";
 /** What is different, in groups of sentences. */
 export function sentences(groups) {
   if (!groups.length) return [h("p", { class: "quiet", text: "Nothing is different." })];
-  return groups.flatMap(({ title, sentences: list }) => [h("h4", { text: title }), h("ul", {}, ...list.map((text) => h("li", { text })))]);
+  return groups.flatMap(({ title, sentences: list }) => [
+    h("h4", { text: title }),
+    h("ul", {}, ...list.map((text) => h("li", { text }))),
+  ]);
 }

@@ -1,19 +1,27 @@
 /** Small helpers over the DOM: build, find, change only what differs. */
 
+/**
+ * The element of index.html with an id, of the kind that the caller knows it to be.
+ * @param {string} id
+ * @returns {any}
+ */
 export const byId = (id) => document.getElementById(id);
 
 /**
  * Builds an element.
- * @param {string} tag
- * @param {object} [attributes] `class`, `text`, `on` (listeners), `data` (dataset), else attributes; null skips
- * @param {...(Node|string|null|false)} children
+ * @template {keyof HTMLElementTagNameMap} Tag
+ * @param {Tag} tag
+ * @param {Record<string, any>} [attributes] `class`, `text`, `on` (listeners), `data` (dataset), else attributes; null skips
+ * @param {...(Node|string|null|false|undefined)} children
+ * @returns {HTMLElementTagNameMap[Tag]}
  */
 export function h(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;
     if (name === "text") element.textContent = value;
-    else if (name === "on") Object.entries(value).forEach(([type, listener]) => element.addEventListener(type, listener));
+    else if (name === "on")
+      Object.entries(value).forEach(([type, listener]) => element.addEventListener(type, listener));
     else if (name === "data") Object.assign(element.dataset, value);
     else element.setAttribute(name, value === true ? "" : value);
   }
@@ -44,7 +52,8 @@ export function setText(element, text) {
 
 export function setAttribute(element, name, value) {
   if (value === null || value === undefined || value === false) element.removeAttribute(name);
-  else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value === true ? "" : value);
+  else if (element.getAttribute(name) !== String(value))
+    element.setAttribute(name, value === true ? "" : value);
 }
 
 /**
@@ -66,7 +75,10 @@ export function onPress(button, act, explain = () => {}) {
 }
 
 /** Resolves when the current changes have been painted. */
-export const painted = () => new Promise((resume) => { requestAnimationFrame(() => setTimeout(resume)); });
+export const painted = () =>
+  new Promise((resume) => {
+    requestAnimationFrame(() => setTimeout(resume));
+  });
 
 /** Why parts of the page cannot be used for a while. @type {WeakMap<HTMLElement, Set<string>>} */
 const reasons = new WeakMap();

@@ -6,7 +6,9 @@
  * @param {() => void} hide
  */
 export function onPointed(element, show, hide) {
-  const elsewhere = ({ target }) => { if (!element.contains(target)) hide(); };
+  const elsewhere = ({ target }) => {
+    if (!element.contains(target)) hide();
+  };
   for (const type of ["pointerdown", "pointermove"]) element.addEventListener(type, show);
   element.addEventListener("pointerleave", ({ pointerType }) => {
     if (pointerType !== "touch") hide();

@@ -12,7 +12,12 @@ export function remembered(name) {
 /** The defaults, with each value that was kept and has the type of its default. */
 export function recalled(name, defaults) {
   const kept = remembered(name);
-  return Object.fromEntries(Object.entries(defaults).map(([key, value]) => [key, typeof kept[key] === typeof value ? kept[key] : value]));
+  return Object.fromEntries(
+    Object.entries(defaults).map(([key, value]) => [
+      key,
+      typeof kept[key] === typeof value ? kept[key] : value,
+    ]),
+  );
 }
 
 /** Keeps an object under a name. */

@@ -8,7 +8,7 @@ let count = 0;
 
 /**
  * Shows nothing new of the state between a press on a button and its release; then the newest.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @param {HTMLElement} element whose buttons are meant
  */
 export function stillWhilePressed(store, element) {
@@ -30,6 +30,7 @@ export function stillWhilePressed(store, element) {
     };
     count += 1;
     store.hold(true);
-    for (const name of ["pointerup", "pointercancel"]) window.addEventListener(name, release, { signal: ended.signal });
+    for (const name of ["pointerup", "pointercancel"])
+      window.addEventListener(name, release, { signal: ended.signal });
   });
 }

@@ -32,7 +32,9 @@ export function oneTabStop(root, { items = "button, a[href]", isToolbar = false 
     const now = all();
     for (const item of now) if (item !== held && item.tabIndex !== -1) item.tabIndex = -1;
     const hasFocus = root.contains(document.activeElement);
-    const current = hasFocus ? null : now.find((item) => item.getAttribute("aria-current") === "true" && isOffered(item));
+    const current = hasFocus
+      ? null
+      : now.find((item) => item.getAttribute("aria-current") === "true" && isOffered(item));
     if (current) hold(current);
     else if (!held || !now.includes(held) || !isOffered(held) || !isSeen(held)) hold(firstOf(root, now));
   }
@@ -53,7 +55,12 @@ export function oneTabStop(root, { items = "button, a[href]", isToolbar = false 
     const item = target.closest(items);
     if (item && root.contains(item)) hold(item);
   });
-  const changes = { childList: true, subtree: true, attributes: true, attributeFilter: ["hidden", "disabled", "aria-current"] };
+  const changes = {
+    childList: true,
+    subtree: true,
+    attributes: true,
+    attributeFilter: ["hidden", "disabled", "aria-current"],
+  };
   new MutationObserver(() => settle(() => true)).observe(root, changes);
   // What a style sheet hides is noticed where the part is shown, or has another size.
   new ResizeObserver(() => settle((item) => !root.checkVisibility() || item.checkVisibility())).observe(root);

@@ -21,12 +21,26 @@ function tooMany(stack) {
  */
 export function toast(sentence, { tone = "plain", action = null, of = action ? "studio" : "gait" } = {}) {
   const close = () => element.remove();
-  const element = h("div", { class: "toast", role: tone === "bad" ? "alert" : "status", data: { tone, of } },
+  const element = h(
+    "div",
+    { class: "toast", role: tone === "bad" ? "alert" : "status", data: { tone, of } },
     h("p", { text: sentence }),
-    action && h("button", { text: action.label, on: { click: () => { close(); action.act(); } } }),
-    h("button", { class: "plain icon-only", "aria-label": "Dismiss", on: { click: close } }, icon("close")));
+    action
+      && h("button", {
+        text: action.label,
+        on: {
+          click: () => {
+            close();
+            action.act();
+          },
+        },
+      }),
+    h("button", { class: "plain icon-only", "aria-label": "Dismiss", on: { click: close } }, icon("close")),
+  );
   const stack = byId("toasts");
-  [...stack.children].filter((other) => other.querySelector("p").textContent === sentence).forEach((other) => other.remove());
+  [...stack.children]
+    .filter((other) => other.querySelector("p").textContent === sentence)
+    .forEach((other) => other.remove());
   stack.append(element);
   while (stack.children.length > MOST) tooMany(stack).remove();
   setTimeout(close, action ? STAY_ACTION_MS : tone === "bad" ? STAY_BAD_MS : STAY_MS);
@@ -34,12 +48,16 @@ export function toast(sentence, { tone = "plain", action = null, of = action ? "
 
 /** Removes error messages that no longer apply because the gait changed or another is shown. */
 export function clearRefusals() {
-  byId("toasts").querySelectorAll('[data-tone="bad"][data-of="gait"]').forEach((element) => element.remove());
+  byId("toasts")
+    .querySelectorAll('[data-tone="bad"][data-of="gait"]')
+    .forEach((element) => element.remove());
 }
 
 /** Takes away what belongs to the gait that was shown until now. */
 export function clearOfGait() {
-  byId("toasts").querySelectorAll('[data-of="gait"]').forEach((element) => element.remove());
+  byId("toasts")
+    .querySelectorAll('[data-of="gait"]')
+    .forEach((element) => element.remove());
 }
 
 /** Shows the message of an ApiError; any other error is a defect and also goes to the console. */

@@ -11,7 +11,10 @@ const GAP = 12;
 /** What is explained at an element: its own title, that of a part around it, or of the field that it labels. */
 function explanationOf(target) {
   for (let element = target; element && element !== document.body; element = element.parentElement) {
-    const text = element.getAttribute("title") || element.querySelector(":scope > title")?.textContent || element.control?.title;
+    const text =
+      element.getAttribute("title")
+      || element.querySelector(":scope > title")?.textContent
+      || element.control?.title;
     if (text) return text;
   }
   return null;
@@ -66,7 +69,8 @@ export function mountTouchHelp(shown) {
     if (event.pointerType !== "touch" || !event.isPrimary || actsWhileHeld(event.target)) return;
     // Read now: what the press begins may draw the place anew.
     const text = explanationOf(event.target);
-    if (text) press = { x: event.clientX, y: event.clientY, timer: setTimeout(() => explain(event, text), HOLD_MS) };
+    if (text)
+      press = { x: event.clientX, y: event.clientY, timer: setTimeout(() => explain(event, text), HOLD_MS) };
   }
 
   function move({ clientX, clientY }) {
@@ -77,15 +81,31 @@ export function mountTouchHelp(shown) {
   window.addEventListener("pointermove", move, true);
   for (const type of ["pointerup", "pointercancel", "blur"]) window.addEventListener(type, letGo, true);
   // Neither a click, nor what a press of the mouse opens, such as a list of choices.
-  window.addEventListener("touchend", (event) => { if (hasExplained) event.preventDefault(); }, { capture: true, passive: false });
-  window.addEventListener("click", (event) => {
-    if (!hasExplained) return;
-    hasExplained = false;
-    event.preventDefault();
-    event.stopImmediatePropagation();
-  }, true);
+  window.addEventListener(
+    "touchend",
+    (event) => {
+      if (hasExplained) event.preventDefault();
+    },
+    { capture: true, passive: false },
+  );
+  window.addEventListener(
+    "click",
+    (event) => {
+      if (!hasExplained) return;
+      hasExplained = false;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+    },
+    true,
+  );
   // The browser's own menu of a long press would cover the explanation.
-  window.addEventListener("contextmenu", (event) => { if (press || hasExplained) event.preventDefault(); }, true);
+  window.addEventListener(
+    "contextmenu",
+    (event) => {
+      if (press || hasExplained) event.preventDefault();
+    },
+    true,
+  );
   window.addEventListener("scroll", hide, true);
   window.addEventListener("keydown", hide, true);
 }

@@ -11,19 +11,24 @@ import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { counted, fixed, mm } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const HELP = "Searches for a gait with the same foot order and step, timed for the robot's firmware. "
+const HELP =
+  "Searches for a gait with the same foot order and step, timed for the robot's firmware. "
   + "You can compare both gaits before you use the new gait";
-const FREELY = "Changes this gait into a drawn gait with the same foot order and step. "
+const FREELY =
+  "Changes this gait into a drawn gait with the same foot order and step. "
   + "You can then paint the timeline";
 const BROKEN_OFF = "The search stopped without a result. Try again when the studio is connected.";
 const MORE = "To gain more speed, set more iterations of the gait, a longer step or a longer stop bound.";
-const FEW = "This gait has fewer than three iterations. Its values in mid-walk (column “Now”) are the mean "
+const FEW =
+  "This gait has fewer than three iterations. Its values in mid-walk (column “Now”) are the mean "
   + "over all iterations.";
-const USE = "Replaces the drawn gait with the gait in column “For the robot's clock”. "
+const USE =
+  "Replaces the drawn gait with the gait in column “For the robot's clock”. "
   + "Undo restores the drawn gait";
-const NEW = "Saves the gait in column “For the robot's clock” as a new gait. "
-  + "The drawn gait stays unchanged";
-const ABOUT = "with a gait for the robot's clock: a gait that is timed for the robot's firmware. "
+const NEW =
+  "Saves the gait in column “For the robot's clock” as a new gait. " + "The drawn gait stays unchanged";
+const ABOUT =
+  "with a gait for the robot's clock: a gait that is timed for the robot's firmware. "
   + "Both gaits have the same foot order and step. "
   + "The gait for the robot's clock has few poses. The motors move directly from pose to pose.";
 const DEGREES = 180 / Math.PI;
@@ -44,10 +49,13 @@ function whyNot({ view, pending }) {
 function conversionButton(store, { text, help, isOf, act }) {
   const button = h("button", { class: "wide", text });
   onPress(button, attempt(act), (why) => toast(why));
-  store.watch(({ view, pending }) => [view, pending.length], (state) => {
-    button.hidden = !state.view || !isOf(state.view.document);
-    setAllowed(button, whyNot(state), help);
-  });
+  store.watch(
+    ({ view, pending }) => [view, pending.length],
+    (state) => {
+      button.hidden = !state.view || !isOf(state.view.document);
+      setAllowed(button, whyNot(state), help);
+    },
+  );
   return button;
 }
 
@@ -57,26 +65,36 @@ function oneAtATime(act) {
   return async () => {
     if (isOn) return;
     isOn = true;
-    try { await act(); } finally { isOn = false; }
+    try {
+      await act();
+    } finally {
+      isOn = false;
+    }
   };
 }
 
 /** The button on a gait for the robot's clock. */
-export const drawFreelyButton = (store, edits) => conversionButton(store, {
-  text: "Draw it freely", help: FREELY, isOf: ({ poses }) => Boolean(poses),
-  act: () => edits.convert("drawn"),
-});
+export const drawFreelyButton = (store, edits) =>
+  conversionButton(store, {
+    text: "Draw it freely",
+    help: FREELY,
+    isOf: ({ poses }) => Boolean(poses),
+    act: () => edits.convert("drawn"),
+  });
 
 /**
  * The button on a drawn gait.
- * @param {object} store
- * @param {object} edits
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
  * @param {(id: string) => Promise<void>} show shows a gait
  */
-export const fasterButton = (store, edits, show) => conversionButton(store, {
-  text: "Faster on the robot", help: HELP, isOf: ({ poses }) => !poses,
-  act: oneAtATime(() => compare(store, edits, show)),
-});
+export const fasterButton = (store, edits, show) =>
+  conversionButton(store, {
+    text: "Faster on the robot",
+    help: HELP,
+    isOf: ({ poses }) => !poses,
+    act: oneAtATime(() => compare(store, edits, show)),
+  });
 
 /** The figure that says how fast a gait is, as both sides name it. */
 const rateOf = (document) => (isOnTheSpot(document) ? "turn_rate" : "speed");
@@ -92,19 +110,70 @@ function groupsOf(document) {
   const of = (name, unit, read, text) => ({ name, unit, read, text });
   const middle = [
     of("Speed", pace[0], (side) => side[`cycle_${rate}`], pace[1]),
-    of("Time", "s", (side) => side.cycle_seconds, (value) => fixed(value)),
-    of("Moves", "", (side) => side.cycle_moves, (value) => fixed(value, Number.isInteger(value) ? 0 : 1)),
+    of(
+      "Time",
+      "s",
+      (side) => side.cycle_seconds,
+      (value) => fixed(value),
+    ),
+    of(
+      "Moves",
+      "",
+      (side) => side.cycle_moves,
+      (value) => fixed(value, Number.isInteger(value) ? 0 : 1),
+    ),
   ];
   const all = [
     of("Speed", pace[0], (side) => side[rate], pace[1]),
-    of("Time", "s", (side) => side.seconds, (value) => fixed(value)),
-    of("Moves", "", (side) => side.moves, (value) => fixed(value, 0)),
-    ...(onTheSpot ? [] : [of("Travel", "mm", (side) => side.distance, (value) => mm(value))]),
-    ...(turns ? [of("Turn", "°", (side) => side.turn, (value) => fixed(value * DEGREES))] : []),
-    of("Least margin", "mm", (side) => side.margin, (value) => mm(value)),
-    of("Stop acts within", "s", (side) => side.stop_seconds, (value) => fixed(value, 2)),
+    of(
+      "Time",
+      "s",
+      (side) => side.seconds,
+      (value) => fixed(value),
+    ),
+    of(
+      "Moves",
+      "",
+      (side) => side.moves,
+      (value) => fixed(value, 0),
+    ),
+    ...(onTheSpot
+      ? []
+      : [
+          of(
+            "Travel",
+            "mm",
+            (side) => side.distance,
+            (value) => mm(value),
+          ),
+        ]),
+    ...(turns
+      ? [
+          of(
+            "Turn",
+            "°",
+            (side) => side.turn,
+            (value) => fixed(value * DEGREES),
+          ),
+        ]
+      : []),
+    of(
+      "Least margin",
+      "mm",
+      (side) => side.margin,
+      (value) => mm(value),
+    ),
+    of(
+      "Stop acts within",
+      "s",
+      (side) => side.stop_seconds,
+      (value) => fixed(value, 2),
+    ),
   ];
-  return [{ head: "One iteration in mid-walk", rows: middle }, { head: whole, rows: all }];
+  return [
+    { head: "One iteration in mid-walk", rows: middle },
+    { head: whole, rows: all },
+  ];
 }
 
 function table(document) {
@@ -119,17 +188,17 @@ function table(document) {
     const name = h("th", { scope: "row" }, row.name, unit);
     return h("tr", {}, name, cell(row, "now"), cell(row, "faster"));
   };
-  const groups = groupsOf(document).map(({ head, rows }) => h("tbody", {},
-    h("tr", {}, h("th", { scope: "rowgroup", colspan: "3", text: head })), ...rows.map(line)));
+  const groups = groupsOf(document).map(({ head, rows }) =>
+    h("tbody", {}, h("tr", {}, h("th", { scope: "rowgroup", colspan: "3", text: head })), ...rows.map(line)),
+  );
   const columns = ["Now", "For the robot's clock"].map((text) => h("th", { scope: "col", text }));
-  const element = h("table", { class: "sides" },
-    h("thead", {}, h("tr", {}, h("td"), ...columns)),
-    ...groups);
-  const show = (state) => cells.forEach(({ element: place, row, side }) => {
-    const waits = side === "faster" && state.state === "running";
-    const value = state[side] ? row.read(state[side]) : null;
-    setText(place, waits ? "…" : value === null ? "–" : row.text(value));
-  });
+  const element = h("table", { class: "sides" }, h("thead", {}, h("tr", {}, h("td"), ...columns)), ...groups);
+  const show = (state) =>
+    cells.forEach(({ element: place, row, side }) => {
+      const waits = side === "faster" && state.state === "running";
+      const value = state[side] ? row.read(state[side]) : null;
+      setText(place, waits ? "…" : value === null ? "–" : row.text(value));
+    });
   return { element, show };
 }
 
@@ -181,7 +250,9 @@ function ask(document, name, search) {
     const line = h("p", { role: "status", "aria-label": "Comparison" });
     const notice = h("p", { class: "quiet" });
     let last = null;
-    const take = (act) => { if (last.state === "solved") close({ act, state: last }); };
+    const take = (act) => {
+      if (last.state === "solved") close({ act, state: last });
+    };
     const acts = buttons(close, take);
     const show = (state) => {
       last = state;
@@ -195,7 +266,9 @@ function ask(document, name, search) {
     const fail = (sentence) => show({ ...NOTHING, now: last.now, state: "failed", sentence });
     show({ ...NOTHING, state: "running", stage: "waiting for the solver" });
     search(ending.signal, show).then(
-      () => { if (last.state === "running") fail(BROKEN_OFF); },
+      () => {
+        if (last.state === "running") fail(BROKEN_OFF);
+      },
       (error) => fail(error instanceof ApiError ? error.message : BROKEN_OFF),
     );
     const about = h("p", { class: "quiet", text: `This table compares “${name}” ${ABOUT}` });

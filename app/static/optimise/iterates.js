@@ -6,7 +6,8 @@ import { jobIsOn, jobOf } from "../shell/job_list.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { report } from "../lib/toasts.js";
 
-const HELP = "Shows the motion at this iteration of the optimiser, in 3D and in the plots. "
+const HELP =
+  "Shows the motion at this iteration of the optimiser, in 3D and in the plots. "
   + "Iteration 0 is the motion from which the optimiser starts";
 
 /** Appends the slider to a section and keeps it current. */
@@ -46,22 +47,45 @@ export function mountIterates(store, section) {
     slider.focus();
   });
 
-  store.watch(({ jobs, shownJob, selected, iterate }) => [jobs, shownJob, selected, iterate], (state) => {
-    const job = jobOf(state);
-    const count = job && !jobIsOn(job) ? (job.course ?? 0) : 0;
-    row.hidden = count === 0;
-    slider.max = String(Math.max(count - 1, 0));
-    if (!state.iterate && !asked) slider.value = slider.max;
-    const appears = back.hidden && state.iterate;
-    back.hidden = !state.iterate;
-    if (appears) back.scrollIntoView({ block: "nearest" });
-    setText(number, `${slider.value} of ${slider.max}`);
-    row.toggleAttribute("data-on", Boolean(state.iterate));
-    const lost = job && !jobIsOn(job) && count === 0 && job.progress?.length > 1;
-    gone.hidden = !lost;
-    setText(gone, lost ? "The motions at the optimiser's iterations are no longer stored. "
-      + "Optimise again to see these motions." : "");
-  });
-  store.watch(({ selected, view, gesture, pending, shownJob }) => [selected, view?.revision, gesture, pending.length, shownJob], leave);
-  return { leave: () => { const on = Boolean(store.state.iterate); leave(); return on; } };
+  store.watch(
+    ({ jobs, shownJob, selected, iterate }) => [jobs, shownJob, selected, iterate],
+    (state) => {
+      const job = jobOf(state);
+      const count = job && !jobIsOn(job) ? (job.course ?? 0) : 0;
+      row.hidden = count === 0;
+      slider.max = String(Math.max(count - 1, 0));
+      if (!state.iterate && !asked) slider.value = slider.max;
+      const appears = back.hidden && state.iterate;
+      back.hidden = !state.iterate;
+      if (appears) back.scrollIntoView({ block: "nearest" });
+      setText(number, `${slider.value} of ${slider.max}`);
+      row.toggleAttribute("data-on", Boolean(state.iterate));
+      const lost = job && !jobIsOn(job) && count === 0 && job.progress?.length > 1;
+      gone.hidden = !lost;
+      setText(
+        gone,
+        lost
+          ? "The motions at the optimiser's iterations are no longer stored. "
+              + "Optimise again to see these motions."
+          : "",
+      );
+    },
+  );
+  store.watch(
+    ({ selected, view, gesture, pending, shownJob }) => [
+      selected,
+      view?.revision,
+      gesture,
+      pending.length,
+      shownJob,
+    ],
+    leave,
+  );
+  return {
+    leave: () => {
+      const on = Boolean(store.state.iterate);
+      leave();
+      return on;
+    },
+  };
 }

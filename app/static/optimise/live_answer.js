@@ -10,8 +10,17 @@ import { remedyList } from "./remedy_list.js";
 import { tryouts } from "./tryout.js";
 
 const FAMILIES = {
-  body_torque: "Balance", margin: "Margin", workspace: "Reach", foot_speed: "Speed", body_speed: "Body speed", clearance: "Clearance",
-  body_height: "Body height", boundary: "Start and goal", motor_speed: "Motor speed", motor_acceleration: "Acceleration", friction: "Friction",
+  body_torque: "Balance",
+  margin: "Margin",
+  workspace: "Reach",
+  foot_speed: "Speed",
+  body_speed: "Body speed",
+  clearance: "Clearance",
+  body_height: "Body height",
+  boundary: "Start and goal",
+  motor_speed: "Motor speed",
+  motor_acceleration: "Acceleration",
+  friction: "Friction",
   shoe_distance: "Shoes",
 };
 const SHOWN_MISSING = 3;
@@ -20,24 +29,47 @@ const SCROLLED_PX = 40;
 const FOR_EVERY_MOTION = /^This is proven/;
 
 /** The feet of an entry, counted from 1. */
-const feetOf = ({ feet }) => (feet.length === 0 ? "" : feet.length === 1 ? `foot ${feet[0] + 1}` : `edge ${feet.map((foot) => foot + 1).join("–")}`);
+const feetOf = ({ feet }) =>
+  feet.length === 0
+    ? ""
+    : feet.length === 1
+      ? `foot ${feet[0] + 1}`
+      : `edge ${feet.map((foot) => foot + 1).join("–")}`;
 
 function missingMotionItem(missing, plan, goTo) {
   const from = plan.times[missing.first];
   const place = [FAMILIES[missing.family] ?? missing.family, feetOf(missing)].filter(Boolean).join(", ");
-  return h("li", { title: missing.sentence },
-    h("button", { class: "link", "aria-label": `Go to ${place}, ${fixed(from)} s`, on: { click: () => goTo(missing) } },
-      `${place}, ${fixed(from)} s`),
-    h("b", { class: "number", text: `${fixed(missing.amount, missing.amount < 1 ? 2 : 1)} ${missing.unit}` }));
+  return h(
+    "li",
+    { title: missing.sentence },
+    h(
+      "button",
+      { class: "link", "aria-label": `Go to ${place}, ${fixed(from)} s`, on: { click: () => goTo(missing) } },
+      `${place}, ${fixed(from)} s`,
+    ),
+    h("b", { class: "number", text: `${fixed(missing.amount, missing.amount < 1 ? 2 : 1)} ${missing.unit}` }),
+  );
 }
 
 /** The worst entries, and the others under a fold. */
 function missingMotionList(lacks, plan, goTo) {
   const items = lacks.map((missing) => missingMotionItem(missing, plan, goTo));
-  const list = h("ul", { class: "lacks", role: "list", "aria-label": "What is missing" }, ...items.slice(0, SHOWN_MISSING));
+  const list = h(
+    "ul",
+    { class: "lacks", role: "list", "aria-label": "What is missing" },
+    ...items.slice(0, SHOWN_MISSING),
+  );
   const rest = items.slice(SHOWN_MISSING);
   if (!rest.length) return [list];
-  return [list, h("details", { class: "lacks-more" }, h("summary", { text: `${rest.length} more` }), h("ul", { class: "lacks", role: "list" }, ...rest))];
+  return [
+    list,
+    h(
+      "details",
+      { class: "lacks-more" },
+      h("summary", { text: `${rest.length} more` }),
+      h("ul", { class: "lacks", role: "list" }, ...rest),
+    ),
+  ];
 }
 
 /** The card's parts for a drawing that the live tier proves, or finds, to have no motion. */
@@ -46,8 +78,16 @@ function infeasibleParts(plan, goTo) {
   // The last sentence names the scope of the answer: every motion, or the live tier's model.
   const [first = "", ...rest] = explanation;
   const closing = rest.at(-1) ?? first;
-  const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for evenly spaced footholds" : evidence ?? "";
-  const sentence = h("p", { class: "first", title: explanation.join(" ") }, first, text && h("span", { class: "quiet", text: ` (${text})`, title: closing }));
+  const text =
+    evidence === "proven" && !FOR_EVERY_MOTION.test(closing)
+      ? "proven for evenly spaced footholds"
+      : (evidence ?? "");
+  const sentence = h(
+    "p",
+    { class: "first", title: explanation.join(" ") },
+    first,
+    text && h("span", { class: "quiet", text: ` (${text})`, title: closing }),
+  );
   return [sentence, ...(lacks.length ? missingMotionList(lacks, plan, goTo) : [])];
 }
 
@@ -57,14 +97,29 @@ function infeasibleParts(plan, goTo) {
 function verdictOf(state, goTo) {
   const plan = ownPlan(state);
   const why = plan?.poses?.explanation ?? [];
-  if (why.length) return { title: "No motion for this gait", about: why, build: () => why.map((text) => h("p", { text })), mendable: false };
+  if (why.length)
+    return {
+      title: "No motion for this gait",
+      about: why,
+      build: () => why.map((text) => h("p", { text })),
+      mendable: false,
+    };
   const title = "No motion for this drawing";
   const { status, evidence, explanation, lacks } = plan?.live ?? {};
-  if (status === "infeasible") return { title, about: [evidence, explanation, lacks, plan.times], build: () => infeasibleParts(plan, goTo), mendable: true };
+  if (status === "infeasible")
+    return {
+      title,
+      about: [evidence, explanation, lacks, plan.times],
+      build: () => infeasibleParts(plan, goTo),
+      mendable: true,
+    };
   const first = (text) => () => [h("p", { class: "first", text })];
-  if (isRefusedDrawing(state)) return { title, about: plan.refusal.sentence, build: first(plan.refusal.sentence), mendable: true };
+  if (isRefusedDrawing(state))
+    return { title, about: plan.refusal.sentence, build: first(plan.refusal.sentence), mendable: true };
   const fall = fallOf(state);
-  return fall ? { title: "The robot would tip over", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
+  return fall
+    ? { title: "The robot would tip over", about: fall.sentence, build: first(fall.sentence), mendable: true }
+    : null;
 }
 
 /** Whether a person works below the card: in a field with the focus, or on a number that is dragged. */
@@ -85,16 +140,38 @@ export function liveAnswer(store, edits, goTo) {
     edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
   };
   const remedies = remedyList({ use, show: tryout.show, end: tryout.end });
-  const [title, up] = [h("span", {}), h("button", { class: "link", text: "↑", "aria-label": "What would help", title: "Scroll up to “What would help”", hidden: true })];
+  const [title, up] = [
+    h("span", {}),
+    h("button", {
+      class: "link",
+      text: "↑",
+      "aria-label": "What would help",
+      title: "Scroll up to “What would help”",
+      hidden: true,
+    }),
+  ];
   const panel = byId("sections");
-  const top = () => { up.hidden = panel.scrollTop < SCROLLED_PX; };
-  up.addEventListener("click", () => { panel.scrollTop = 0; });
+  const top = () => {
+    up.hidden = panel.scrollTop < SCROLLED_PX;
+  };
+  up.addEventListener("click", () => {
+    panel.scrollTop = 0;
+  });
   panel.addEventListener("scroll", top, { passive: true });
   const why = h("div", { class: "advice-why" });
   const body = h("div", { class: "advice" }, why, remedies.element);
-  const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why the gait is infeasible", hidden: true }, h("h3", { class: "advice-title" }, title, up), body);
+  const element = h(
+    "div",
+    { class: "advice-card", role: "region", "aria-label": "Why the gait is infeasible", hidden: true },
+    h("h3", { class: "advice-title" }, title, up),
+    body,
+  );
   let shown = null;
-  keepPlace([body], () => body.offsetHeight, () => worksBelow(store.state, body));
+  keepPlace(
+    [body],
+    () => body.offsetHeight,
+    () => worksBelow(store.state, body),
+  );
   const show = (state) => {
     const verdict = verdictOf(state, goTo);
     element.hidden = body.hidden = !verdict;
@@ -110,7 +187,11 @@ export function liveAnswer(store, edits, goTo) {
   return { element, show };
 }
 
-const TITLES = { infeasible: "Optimise also found no motion", failed: "Optimise failed", interrupted: "Optimise was interrupted" };
+const TITLES = {
+  infeasible: "Optimise also found no motion",
+  failed: "Optimise failed",
+  interrupted: "Optimise was interrupted",
+};
 
 /** The box with the exact tier's refusal. */
 export function jobAnswer() {
@@ -124,7 +205,11 @@ export function jobAnswer() {
       if (!bad) return;
       const sentences = (job.result?.explanation ?? []).filter((sentence) => sentence !== job.sentence);
       setAttribute(element, "data-tone", job.state === "failed" ? "bad" : "caution");
-      element.replaceChildren(h("h4", { text: TITLES[job.state] }), h("p", { text: job.sentence }), ...sentences.map((text) => h("p", { text })));
+      element.replaceChildren(
+        h("h4", { text: TITLES[job.state] }),
+        h("p", { text: job.sentence }),
+        ...sentences.map((text) => h("p", { text })),
+      );
     },
   };
 }

@@ -5,14 +5,17 @@ import { historyAction } from "../state/fields.js";
 import { refusalOf } from "../lib/field_error.js";
 
 const MOST = 20_000;
-const MEANWHILE = "The notes were changed in another window while you were typing. "
+const MEANWHILE =
+  "The notes were changed in another window while you were typing. "
   + "To keep your text, leave the field. "
   + "To use the text from the other window, press Escape.";
 
 function refusedNotes(text) {
   const { length } = [...text];
-  return length > MOST ? `The notes have ${length} characters, but at most ${MOST} are possible. `
-    + `Shorten the notes, or press Escape to restore the old notes.` : null;
+  return length > MOST
+    ? `The notes have ${length} characters, but at most ${MOST} are possible. `
+        + `Shorten the notes, or press Escape to restore the old notes.`
+    : null;
 }
 
 /** The text of the field and of the document: `write` shows one, `isTyped` returns whether they differ. */
@@ -21,7 +24,9 @@ function shownText(area, refusal) {
   let written = "";
   return {
     isTyped: () => area.value !== written,
-    take() { written = area.value; },
+    take() {
+      written = area.value;
+    },
     write(text) {
       if (area.value !== text) area.value = text;
       written = area.value;
@@ -44,15 +49,27 @@ function mountNoteKeys(area, edits, { text, keep, giveUp }) {
 
 /**
  * Builds the field.
- * @param {object} store
- * @param {object} edits
- * @returns {{element: HTMLElement, show: (document: object) => void}}
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
+ * @returns {{element: HTMLElement, show: (document: Record<string, any>) => void}}
  */
 export function notesField(store, edits) {
-  const area = h("textarea", { "aria-label": "Notes", rows: "2", placeholder: "What the gait is for, what you observed" });
+  const area = h("textarea", {
+    "aria-label": "Notes",
+    rows: "2",
+    placeholder: "What the gait is for, what you observed",
+  });
   const refusal = refusalOf(area);
-  const element = h("label", { class: "field notes-field", title: "Your own text about this gait. "
-    + "The notes do not change the motion" }, h("span", { class: "name", text: "Notes" }), area, refusal.element);
+  const element = h(
+    "label",
+    {
+      class: "field notes-field",
+      title: "Your own text about this gait. " + "The notes do not change the motion",
+    },
+    h("span", { class: "name", text: "Notes" }),
+    area,
+    refusal.element,
+  );
   const text = shownText(area, refusal);
   let known = "";
 

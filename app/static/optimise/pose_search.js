@@ -15,23 +15,36 @@ function searchOf({ view, poseSearch }) {
 export function poseSearch(store) {
   const words = h("p", { role: "status", "aria-label": "Search for poses" });
   const act = (call) => attempt(() => call(store.state.selected));
-  const cancel = h("button", { text: "Cancel", title: "Ends the search. "
-    + "You then see the last motion, adapted to the new values. "
-    + "This motion cannot be sent to the robot", on: { click: act(api.cancelSearch) } });
-  const again = h("button", { text: "Search again", on: { click: act(api.searchAgain) } });
-  const element = h("div", { class: "box-note", role: "region", "aria-label": "Search", hidden: true }, words, h("div", { class: "buttons" }, cancel, again));
-  store.watch((state) => [state.view?.search, state.poseSearch, state.view?.id], (state) => {
-    const search = searchOf(state);
-    element.hidden = !search;
-    if (!search) return;
-    const running = search.state === "running";
-    const fastest = paceText(search);
-    const best = fastest && ` ${fastest} so far.`;
-    words.textContent = running
-      ? `Looking for the fastest motion: ${search.stage.toLowerCase() || "waiting for the solver"}.${best}`
-      : `${search.stage} You see the last motion, adapted to the new values. `
-        + `This motion cannot be sent to the robot.`;
-    [cancel.hidden, again.hidden] = [!running, running];
+  const cancel = h("button", {
+    text: "Cancel",
+    title:
+      "Ends the search. "
+      + "You then see the last motion, adapted to the new values. "
+      + "This motion cannot be sent to the robot",
+    on: { click: act(api.cancelSearch) },
   });
+  const again = h("button", { text: "Search again", on: { click: act(api.searchAgain) } });
+  const element = h(
+    "div",
+    { class: "box-note", role: "region", "aria-label": "Search", hidden: true },
+    words,
+    h("div", { class: "buttons" }, cancel, again),
+  );
+  store.watch(
+    (state) => [state.view?.search, state.poseSearch, state.view?.id],
+    (state) => {
+      const search = searchOf(state);
+      element.hidden = !search;
+      if (!search) return;
+      const running = search.state === "running";
+      const fastest = paceText(search);
+      const best = fastest && ` ${fastest} so far.`;
+      words.textContent = running
+        ? `Looking for the fastest motion: ${search.stage.toLowerCase() || "waiting for the solver"}.${best}`
+        : `${search.stage} You see the last motion, adapted to the new values. `
+          + `This motion cannot be sent to the robot.`;
+      [cancel.hidden, again.hidden] = [!running, running];
+    },
+  );
   return element;
 }

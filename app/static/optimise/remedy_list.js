@@ -10,7 +10,8 @@ const NO_PHYSICS = { text: "A simulation is running…", tone: null, title: null
 /** The result of the physics trial of a remedy, as a short text. */
 function physicsWords({ kind, physics, caution }, isTrying) {
   if (!physics) return isTrying ? NO_PHYSICS : { text: caution, tone: "caution", title: null };
-  if (physics.walks === null) return { text: "The simulation gave no result.", tone: "caution", title: physics.sentence };
+  if (physics.walks === null)
+    return { text: "The simulation gave no result.", tone: "caution", title: physics.sentence };
   // What is likely to tip has proven that it does not; arms that touch still do.
   if (physics.walks && caution && kind !== "no_margin") {
     return { text: `The robot walks in the simulation. ${caution}`, tone: "caution", title: null };
@@ -24,9 +25,32 @@ function row(remedy, { use, show, end }) {
   const { label, sentence, document, robot_seconds: robotSeconds } = remedy;
   const [margin, physics] = [h("span", { class: "number remedy-margin" }), h("span", {})];
   const price = robotSeconds === null ? "" : ` Time on the robot: ${fixed(robotSeconds)} s.`;
-  const button = h("button", { text: "Use this", "aria-label": `Use this: ${label}`, title: "Makes this change. Undo restores your drawing.", on: { click: () => use(document, label) } });
-  const element = h("li", { class: "remedy", on: { pointerenter: () => show(document), pointerleave: end, focusin: () => show(document), focusout: end, keydown: ({ key }) => { if (key === "Escape") end(); } } },
-    footfalls(document.timeline.feet), h("b", { text: label }), margin, h("p", { class: "quiet" }, `${sentence}${price} `, physics), button);
+  const button = h("button", {
+    text: "Use this",
+    "aria-label": `Use this: ${label}`,
+    title: "Makes this change. Undo restores your drawing.",
+    on: { click: () => use(document, label) },
+  });
+  const element = h(
+    "li",
+    {
+      class: "remedy",
+      on: {
+        pointerenter: () => show(document),
+        pointerleave: end,
+        focusin: () => show(document),
+        focusout: end,
+        keydown: ({ key }) => {
+          if (key === "Escape") end();
+        },
+      },
+    },
+    footfalls(document.timeline.feet),
+    h("b", { text: label }),
+    margin,
+    h("p", { class: "quiet" }, `${sentence}${price} `, physics),
+    button,
+  );
   return {
     element,
     update(known, isTrying) {
@@ -49,18 +73,28 @@ function orderOf(labels, shown, isHeld) {
 
 function noteOf({ searching, trying, complete, list, sentence }) {
   if (sentence) return sentence;
-  if (searching) return list.length ? "Looking for more changes that help…" : "Looking for changes that help…";
-  if (!list.length) return trying ? "Looking for changes that help…" : complete ? "No change was found "
-    + "with which the robot can walk." : "The search ended early. Change the drawing to start a new search.";
+  if (searching)
+    return list.length ? "Looking for more changes that help…" : "Looking for changes that help…";
+  if (!list.length)
+    return trying
+      ? "Looking for changes that help…"
+      : complete
+        ? "No change was found " + "with which the robot can walk."
+        : "The search ended early. Change the drawing to start a new search.";
   return "";
 }
 
 /**
  * The list with a line below it.
- * @param {{use: (document: object, label: string) => void, show: (document: object) => void, end: () => void}} acts
+ * @param {{use: (document: Record<string, any>, label: string) => void, show: (document: Record<string, any>) => void, end: () => void}} acts
  */
 export function remedyList(acts) {
-  const head = h("div", { class: "remedies-head" }, h("h4", { text: "What would help" }), h("span", { class: "quiet", text: "Margin" }));
+  const head = h(
+    "div",
+    { class: "remedies-head" },
+    h("h4", { text: "What would help" }),
+    h("span", { class: "quiet", text: "Margin" }),
+  );
   const list = h("ul", { class: "remedies", role: "list" });
   const group = h("div", { role: "group", "aria-label": "What would help" }, list);
   oneTabStop(list);

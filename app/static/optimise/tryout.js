@@ -11,7 +11,10 @@ export function tryouts(store) {
     if (wanted !== document) return;
     const id = store.state.selected;
     // A plan that is not to be had is not shown; taking the way out says why.
-    const plan = await api.live(id, { document }).then((answer) => answer.plan, () => null);
+    const plan = await api.live(id, { document }).then(
+      (answer) => answer.plan,
+      () => null,
+    );
     if (!plan || wanted !== document || store.state.selected !== id) return;
     store.set({ preview: document, tryout: plan });
     measured("pointing to preview", since);
@@ -21,5 +24,11 @@ export function tryouts(store) {
     if (store.state.tryout) store.set({ preview: null, tryout: null });
   };
   store.watch(({ selected, view, pending, gesture }) => [selected, view, pending, gesture], end);
-  return { show(document) { wanted = document; offer({ document, since: performance.now() }); }, end };
+  return {
+    show(document) {
+      wanted = document;
+      offer({ document, since: performance.now() });
+    },
+    end,
+  };
 }

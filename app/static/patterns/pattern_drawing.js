@@ -5,27 +5,40 @@ import { drawnCells, withCells } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const REFUSALS = {
-  end: "You cannot draw in the first or last column. "
+  end:
+    "You cannot draw in the first or last column. "
     + "To change these columns in a transition, move the cursor of gait A or B.",
   limb: "This limb is locked. To unlock the limb, click its name.",
-  given: "This cell is locked in the open gait, or it is a painted swing. "
+  given:
+    "This cell is locked in the open gait, or it is a painted swing. "
     + "Unlock the cell in the tab Cells, or untick “Keep the painted swings”.",
 };
 
 const DRAWN = "You drew this cell. Click the cell to let the search choose its value again.";
-const FREE = "Click: change between swing and stance. Shift+click: fix the present value of the cell. "
+const FREE =
+  "Click: change between swing and stance. Shift+click: fix the present value of the cell. "
   + "Drag: change several cells.";
 
 /** Turns places on the screen into cells; measured once a drag. */
 function finder(lines) {
-  const [first, last] = [lines[0], lines.at(-1)].map(({ strip }) => strip.parentElement.getBoundingClientRect());
+  const [first, last] = [lines[0], lines.at(-1)].map(({ strip }) =>
+    strip.parentElement.getBoundingClientRect(),
+  );
   const samples = lines[0].cells.length;
-  return (x, y) => nearestCell([Math.floor(((y - first.top) / (last.bottom - first.top)) * lines.length), Math.floor(((x - first.left) / first.width) * samples)], lines.length, samples);
+  return (x, y) =>
+    nearestCell(
+      [
+        Math.floor(((y - first.top) / (last.bottom - first.top)) * lines.length),
+        Math.floor(((x - first.left) / first.width) * samples),
+      ],
+      lines.length,
+      samples,
+    );
 }
 
 /**
  * Wires pointer and keyboard.
- * @param {{problem: object, grid: HTMLElement, lines: () => object[], roving: object, shown: () => object}} parts
+ * @param {{problem: Record<string, any>, grid: HTMLElement, lines: () => Record<string, any>[], roving: Record<string, any>, shown: () => Record<string, any>}} parts
  * @returns {{cancel: () => boolean}} `cancel` ends a drag and takes back what it drew
  */
 export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
@@ -76,7 +89,13 @@ export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
       toast(why);
       return;
     }
-    drag = { pointer: event.pointerId, before: drawnCells(problem.state), act: actFor(cell, event.shiftKey), last: cell, cellAt: finder(lines()) };
+    drag = {
+      pointer: event.pointerId,
+      before: drawnCells(problem.state),
+      act: actFor(cell, event.shiftKey),
+      last: cell,
+      cellAt: finder(lines()),
+    };
     grid.setPointerCapture(event.pointerId);
     event.preventDefault();
     draw([cell], drag.act);
@@ -101,8 +120,16 @@ export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
     const here = cellOf(event.target);
     if (!here || event.ctrlKey || event.metaKey || event.altKey) return;
     const [foot, sample] = here;
-    const goals = { ArrowLeft: [foot, sample - 1], ArrowRight: [foot, sample + 1], ArrowUp: [foot - 1, sample], ArrowDown: [foot + 1, sample],
-      Home: [foot, 0], End: [foot, Infinity], PageUp: [0, sample], PageDown: [Infinity, sample] };
+    const goals = {
+      ArrowLeft: [foot, sample - 1],
+      ArrowRight: [foot, sample + 1],
+      ArrowUp: [foot - 1, sample],
+      ArrowDown: [foot + 1, sample],
+      Home: [foot, 0],
+      End: [foot, Infinity],
+      PageUp: [0, sample],
+      PageDown: [Infinity, sample],
+    };
     if (goals[event.key]) roving.focus(goals[event.key]);
     else if (event.key === " " || event.key === "Enter") touch(here, event.shiftKey);
     else if (event.key.toLowerCase() === "k") touch(here, true);
@@ -117,13 +144,17 @@ export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
     lines()[cell[0]].cells[cell[1]].title = refusal(cell) ?? (isDrawn(cell) ? DRAWN : FREE);
   }
 
-  const end = (event) => { if (drag?.pointer === event.pointerId) drag = null; };
+  const end = (event) => {
+    if (drag?.pointer === event.pointerId) drag = null;
+  };
   grid.addEventListener("pointerdown", begin);
   grid.addEventListener("pointermove", move);
   grid.addEventListener("pointerup", end);
   grid.addEventListener("pointercancel", cancel);
   grid.addEventListener("pointerover", explain);
   grid.addEventListener("keydown", press);
-  grid.addEventListener("focusin", (event) => { if (cellOf(event.target)) roving.move(cellOf(event.target)); });
+  grid.addEventListener("focusin", (event) => {
+    if (cellOf(event.target)) roving.move(cellOf(event.target));
+  });
   return { cancel };
 }

@@ -8,12 +8,23 @@ import { report } from "../lib/toasts.js";
 const KEY = "footfall.patterns.open";
 
 const ENTRIES = [
-  { mode: "transition", text: "Transition to…", help: "Searches for the footfall pattern of a transition "
-    + "from this gait to another gait" },
-  { mode: "limbs", text: "Gait for some limbs…", help: "Searches for a gait in which only some limbs walk. "
-    + "The other limbs are held up, broken or on the ground" },
-  { mode: "drawing", text: "Complete the drawing…", help: "Keeps the locked cells of this gait's timeline "
-    + "and searches for the other cells" },
+  {
+    mode: "transition",
+    text: "Transition to…",
+    help: "Searches for the footfall pattern of a transition " + "from this gait to another gait",
+  },
+  {
+    mode: "limbs",
+    text: "Gait for some limbs…",
+    help:
+      "Searches for a gait in which only some limbs walk. "
+      + "The other limbs are held up, broken or on the ground",
+  },
+  {
+    mode: "drawing",
+    text: "Complete the drawing…",
+    help: "Keeps the locked cells of this gait's timeline " + "and searches for the other cells",
+  },
 ];
 
 function remembersOpen(open) {
@@ -28,8 +39,8 @@ function remembersOpen(open) {
 
 /**
  * Builds the entries.
- * @param {object} store
- * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>, gaitTools: object}} page
+ * @param {import("../state/store.js").Store} store
+ * @param {{edits: Record<string, any>, playback: import("../preview/playback.js").Playback, show: (id: string) => Promise<void>, gaitTools: Record<string, any>}} page
  * @returns {{cancel: () => boolean}} `cancel` ends a drag in the pattern
  */
 export function mountPatternEntry(store, page) {
@@ -55,16 +66,25 @@ export function mountPatternEntry(store, page) {
   });
 
   // A step is shown where the search has its fields.
-  onStep(() => { if (openedView() === "patterns") openView("cells"); });
+  onStep(() => {
+    if (openedView() === "patterns") openView("cells");
+  });
 
-  const go = (mode) => { wanted = mode; openView("patterns"); };
-  for (const { mode, ...entry } of ENTRIES) page.gaitTools.addAct({ ...entry, group: "Pattern search", act: () => go(mode) });
+  const go = (mode) => {
+    wanted = mode;
+    openView("patterns");
+  };
+  for (const { mode, ...entry } of ENTRIES)
+    page.gaitTools.addAct({ ...entry, group: "Pattern search", act: () => go(mode) });
 
   let first = true;
-  store.watch(({ view }) => [Boolean(view)], ({ view, robot }) => {
-    if (!view || !first) return;
-    first = false;
-    if (remembersOpen() && !runIsOn(robot)) openView("patterns");
-  });
+  store.watch(
+    ({ view }) => [Boolean(view)],
+    ({ view, robot }) => {
+      if (!view || !first) return;
+      first = false;
+      if (remembersOpen() && !runIsOn(robot)) openView("patterns");
+    },
+  );
   return { cancel: () => isOpen && Boolean(panel?.cancel()) };
 }

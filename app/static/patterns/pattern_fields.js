@@ -10,26 +10,67 @@ const MODES = {
   drawing: ["Complete", "Keeps the locked cells of the open gait and searches for the other cells"],
 };
 const TEACH = {
-  transition: "Choose gait A and gait B below. "
+  transition:
+    "Choose gait A and gait B below. "
     + "Move the cursor in each gait to the sample where the transition starts or ends. "
     + "Click cells to draw swing or stance. The search finds the other cells.",
   limbs: "Choose the limbs that do not walk. The search finds a repeating pattern for the other limbs.",
-  drawing: "The search keeps the locked cells of the open gait, its first sample and its last sample. "
+  drawing:
+    "The search keeps the locked cells of the open gait, its first sample and its last sample. "
     + "The search finds the other cells.",
 };
 const [LEAST, MOST] = [2, 240];
 
 function modes(problem) {
-  const buttons = Object.entries(MODES).map(([mode, [text, title]]) => h("button", { text, title, "aria-pressed": "false", data: { mode }, on: { click: () => problem.set({ mode }) } }));
-  return { element: h("div", { class: "segmented pattern-modes", role: "group", "aria-label": "Kind of pattern" }, ...buttons), show: ({ mode }) => buttons.forEach((button) => setAttribute(button, "aria-pressed", String(button.dataset.mode === mode))) };
+  const buttons = Object.entries(MODES).map(([mode, [text, title]]) =>
+    h("button", {
+      text,
+      title,
+      "aria-pressed": "false",
+      data: { mode },
+      on: { click: () => problem.set({ mode }) },
+    }),
+  );
+  return {
+    element: h(
+      "div",
+      { class: "segmented pattern-modes", role: "group", "aria-label": "Kind of pattern" },
+      ...buttons,
+    ),
+    show: ({ mode }) =>
+      buttons.forEach((button) => setAttribute(button, "aria-pressed", String(button.dataset.mode === mode))),
+  };
 }
 
 function lengthField(name, help, take) {
-  const input = h("input", { type: "number", min: LEAST, max: MOST, step: 1, "aria-label": name, title: `${help}. ${LEAST} to ${MOST}` });
-  input.addEventListener("input", () => { if (input.validity.valid && input.value) take(input.valueAsNumber); });
-  input.addEventListener("blur", () => { input.value = input.dataset.shown; });
-  const element = h("label", { class: "field" }, h("span", { class: "name", text: name }), h("span", { class: "box", data: { unit: "samples" } }, input));
-  return { element, input, show(value) { input.dataset.shown = String(value); if (document.activeElement !== input) input.value = value; } };
+  const input = h("input", {
+    type: "number",
+    min: LEAST,
+    max: MOST,
+    step: 1,
+    "aria-label": name,
+    title: `${help}. ${LEAST} to ${MOST}`,
+  });
+  input.addEventListener("input", () => {
+    if (input.validity.valid && input.value) take(input.valueAsNumber);
+  });
+  input.addEventListener("blur", () => {
+    input.value = input.dataset.shown;
+  });
+  const element = h(
+    "label",
+    { class: "field" },
+    h("span", { class: "name", text: name }),
+    h("span", { class: "box", data: { unit: "samples" } }, input),
+  );
+  return {
+    element,
+    input,
+    show(value) {
+      input.dataset.shown = String(value);
+      if (document.activeElement !== input) input.value = value;
+    },
+  };
 }
 
 function check(text, title, take) {
@@ -39,33 +80,74 @@ function check(text, title, take) {
 
 /**
  * Builds the fields.
- * @param {object} store
- * @param {object} problem
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} problem
  * @param {(foot: number) => void} lock locks a limb of the transition, or unlocks it
  */
 export function patternFields(store, problem, lock) {
   let shown = null;
   const about = () => {
     const document = store.state.view && shownDocument(store.state);
-    return document ? { robot: document.robot, legs: document.timeline.feet.length, roles: store.state.view.roles ?? [] } : null;
+    return document
+      ? { robot: document.robot, legs: document.timeline.feet.length, roles: store.state.view.roles ?? [] }
+      : null;
   };
   const choice = modes(problem);
-  const samples = lengthField("Length", "Number of samples of the transition, including its first and "
-    + "last sample", (value) => problem.set({ samples: value }));
-  const cycle = lengthField("Length of a cycle", "The pattern repeats after this many samples", (value) => problem.set({ cycle: value }));
-  const shortest = check("Shortest that works", "The search chooses the length. "
-    + "The transition gets as few samples as the rules allow", (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
-  const walkable = check("Swings that the feet can do", "Makes every swing long enough for the steps of "
-    + "both gaits, also swings at the start and end of the transition. "
-    + "The footfall thesis has no such rule", (on) => problem.set({ walkable: on }));
-  const keep = check("Keep my drawing if possible", "The search prefers patterns that are similar to the "
-    + "shown pattern", (on) => problem.set({ keep: on }));
-  const painted = check("Keep the painted swings", "The search keeps all swings and all locked "
-    + "cells of the open gait", (on) => problem.set({ painted: on }));
-  const [limbs, locks] = [limbChoices(problem, about), limbLocks(problem, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null })];
-  const locking = h("div", { class: "pattern-locking" }, h("span", { class: "quiet", text: "Locked limbs" }), locks.element);
+  const samples = lengthField(
+    "Length",
+    "Number of samples of the transition, including its first and " + "last sample",
+    (value) => problem.set({ samples: value }),
+  );
+  const cycle = lengthField("Length of a cycle", "The pattern repeats after this many samples", (value) =>
+    problem.set({ cycle: value }),
+  );
+  const shortest = check(
+    "Shortest that works",
+    "The search chooses the length. " + "The transition gets as few samples as the rules allow",
+    (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }),
+  );
+  const walkable = check(
+    "Swings that the feet can do",
+    "Makes every swing long enough for the steps of "
+      + "both gaits, also swings at the start and end of the transition. "
+      + "The footfall thesis has no such rule",
+    (on) => problem.set({ walkable: on }),
+  );
+  const keep = check(
+    "Keep my drawing if possible",
+    "The search prefers patterns that are similar to the " + "shown pattern",
+    (on) => problem.set({ keep: on }),
+  );
+  const painted = check(
+    "Keep the painted swings",
+    "The search keeps all swings and all locked " + "cells of the open gait",
+    (on) => problem.set({ painted: on }),
+  );
+  const [limbs, locks] = [
+    limbChoices(problem, about),
+    limbLocks(problem, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null }),
+  ];
+  const locking = h(
+    "div",
+    { class: "pattern-locking" },
+    h("span", { class: "quiet", text: "Locked limbs" }),
+    locks.element,
+  );
   const teach = h("p", { class: "teach" });
-  const element = h("div", { class: "pattern-fields" }, choice.element, teach, samples.element, shortest.element, walkable.element, locking, cycle.element, limbs.element, painted.element, keep.element);
+  const element = h(
+    "div",
+    { class: "pattern-fields" },
+    choice.element,
+    teach,
+    samples.element,
+    shortest.element,
+    walkable.element,
+    locking,
+    cycle.element,
+    limbs.element,
+    painted.element,
+    keep.element,
+  );
   return {
     element,
     show(now) {
@@ -73,19 +155,38 @@ export function patternFields(store, problem, lock) {
       const { mode } = problem.state;
       choice.show(problem.state);
       setText(teach, TEACH[mode]);
-      for (const [part, its] of [[samples.element, "transition"], [shortest.element, "transition"], [walkable.element, "transition"], [locking, "transition"], [cycle.element, "limbs"], [limbs.element, "limbs"], [painted.element, "drawing"]]) part.hidden = mode !== its;
+      for (const [part, its] of [
+        [samples.element, "transition"],
+        [shortest.element, "transition"],
+        [walkable.element, "transition"],
+        [locking, "transition"],
+        [cycle.element, "limbs"],
+        [limbs.element, "limbs"],
+        [painted.element, "drawing"],
+      ])
+        part.hidden = mode !== its;
       keep.element.hidden = mode === "drawing";
       samples.show(now?.samples && problem.state.shortest ? now.samples : problem.state.samples);
       samples.input.disabled = problem.state.shortest;
       cycle.show(problem.state.cycle);
-      [shortest.box.checked, walkable.box.checked, keep.box.checked, painted.box.checked] = [problem.state.shortest, problem.state.walkable, problem.state.keep, problem.state.painted];
+      [shortest.box.checked, walkable.box.checked, keep.box.checked, painted.box.checked] = [
+        problem.state.shortest,
+        problem.state.walkable,
+        problem.state.keep,
+        problem.state.painted,
+      ];
       if (mode === "limbs") limbs.show();
       if (mode === "transition" && now) locks.show({ legs: now.legs, given: now.given });
     },
   };
 }
 
-const HELP = { walks: "takes steps", held: "stays in the air, free for another task", broken: "cannot move, and stays in the air", stands: "stays on the ground" };
+const HELP = {
+  walks: "takes steps",
+  held: "stays in the air, free for another task",
+  broken: "cannot move, and stays in the air",
+  stands: "stays on the ground",
+};
 
 const sameLength = (own, count, build) => {
   if (own.length === count) return own;
@@ -99,7 +200,11 @@ function limbChoices(problem, aboutOf) {
   const choices = [];
 
   function choice(foot) {
-    const select = h("select", { "aria-label": `Limb ${foot + 1}` }, ...Object.entries(ROLES).map(([value, text]) => h("option", { value, text, title: HELP[value] })));
+    const select = h(
+      "select",
+      { "aria-label": `Limb ${foot + 1}` },
+      ...Object.entries(ROLES).map(([value, text]) => h("option", { value, text, title: HELP[value] })),
+    );
     const role = h("span", { class: "quiet" });
     select.addEventListener("change", () => {
       const about = aboutOf();
@@ -107,7 +212,16 @@ function limbChoices(problem, aboutOf) {
       limbs[foot] = select.value;
       problem.set({ limbs: { ...problem.state.limbs, [about.robot]: limbs } });
     });
-    return { select, role, element: h("li", { data: { foot: foot + 1 } }, h("span", { class: "pattern-limb" }, h("i", { class: "foot-dot" }), String(foot + 1), role), select) };
+    return {
+      select,
+      role,
+      element: h(
+        "li",
+        { data: { foot: foot + 1 } },
+        h("span", { class: "pattern-limb" }, h("i", { class: "foot-dot" }), String(foot + 1), role),
+        select,
+      ),
+    };
   }
 
   return {
@@ -116,7 +230,8 @@ function limbChoices(problem, aboutOf) {
       const about = aboutOf();
       if (!about) return;
       const limbs = limbsOf(problem.state, about);
-      if (choices.length !== limbs.length) element.replaceChildren(...sameLength(choices, limbs.length, choice).map((one) => one.element));
+      if (choices.length !== limbs.length)
+        element.replaceChildren(...sameLength(choices, limbs.length, choice).map((one) => one.element));
       choices.forEach(({ select, role, element: line }, foot) => {
         select.value = limbs[foot];
         select.title = `Limb ${foot + 1}: ${HELP[limbs[foot]]}`;
@@ -132,7 +247,12 @@ function limbLocks(problem, { refusal, lock }) {
   const element = h("div", { class: "pattern-locks", role: "group", "aria-label": "Locked limbs" });
   const buttons = [];
   const build = (foot) => {
-    const button = h("button", { class: "pattern-lock", "aria-label": `Lock limb ${foot + 1}`, text: String(foot + 1), data: { foot: foot + 1 } });
+    const button = h("button", {
+      class: "pattern-lock",
+      "aria-label": `Lock limb ${foot + 1}`,
+      text: String(foot + 1),
+      data: { foot: foot + 1 },
+    });
     button.addEventListener("click", () => lock(foot));
     return button;
   };
@@ -143,9 +263,13 @@ function limbLocks(problem, { refusal, lock }) {
       buttons.forEach((button, foot) => {
         const isGiven = given(foot);
         setAttribute(button, "aria-pressed", String(isGiven || problem.state.locked.includes(foot)));
-        setAllowed(button, isGiven ? LIMB_GIVEN : refusal(foot), "Locks this limb. "
-          + "A locked limb stays in swing or in stance during the whole transition. "
-          + "It does not count as a walking limb");
+        setAllowed(
+          button,
+          isGiven ? LIMB_GIVEN : refusal(foot),
+          "Locks this limb. "
+            + "A locked limb stays in swing or in stance during the whole transition. "
+            + "It does not count as a walking limb",
+        );
       });
     },
   };

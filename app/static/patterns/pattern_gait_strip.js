@@ -13,10 +13,31 @@ function stretchesOf(row, value) {
 export function picture({ timeline, held }, hatch) {
   const { feet, locked } = timeline;
   const isHeld = (foot) => held?.start?.includes(foot + 1) && held.end?.includes(foot + 1);
-  const rows = feet.flatMap((row, foot) => stretchesOf(row, 0).map(([first, count]) =>
-    svg("rect", { x: first, y: foot + 0.06, width: count, height: 0.88, "data-foot": foot + 1, class: "swing" })));
-  const marks = feet.flatMap((row, foot) => [...stretchesOf(locked?.[foot] ?? "", 1), ...(isHeld(foot) ? [[0, row.length]] : [])].map(([first, count]) =>
-    svg("rect", { x: first, y: foot + 0.06, width: count, height: 0.88, class: "fixed", fill: `url(#${hatch})` })));
+  const rows = feet.flatMap((row, foot) =>
+    stretchesOf(row, 0).map(([first, count]) =>
+      svg("rect", {
+        x: first,
+        y: foot + 0.06,
+        width: count,
+        height: 0.88,
+        "data-foot": foot + 1,
+        class: "swing",
+      }),
+    ),
+  );
+  const marks = feet.flatMap((row, foot) =>
+    [...stretchesOf(locked?.[foot] ?? "", 1), ...(isHeld(foot) ? [[0, row.length]] : [])].map(
+      ([first, count]) =>
+        svg("rect", {
+          x: first,
+          y: foot + 0.06,
+          width: count,
+          height: 0.88,
+          class: "fixed",
+          fill: `url(#${hatch})`,
+        }),
+    ),
+  );
   return [...rows, ...marks];
 }
 
@@ -24,19 +45,21 @@ export function picture({ timeline, held }, hatch) {
 export function stateText(feet, sample) {
   const names = (value) => feet.flatMap((row, foot) => (row[sample] === value ? [foot + 1] : []));
   const [standing, swinging] = [names("1"), names("0")];
-  const one = (list, word) => `${list.length > 1 ? "feet" : "foot"} ${list.join(", ")} ${word}${list.length > 1 ? "" : "s"}`;
+  const one = (list, word) =>
+    `${list.length > 1 ? "feet" : "foot"} ${list.join(", ")} ${word}${list.length > 1 ? "" : "s"}`;
   if (!swinging.length) return "all feet stand";
   return `${standing.length ? one(standing, "stand") : "no foot stands"}, ${one(swinging, "swing")}`;
 }
 
-const cursorHelp = (side) => `The transition ${side === "from" ? "starts" : "ends"} with the state of this `
+const cursorHelp = (side) =>
+  `The transition ${side === "from" ? "starts" : "ends"} with the state of this `
   + `gait at the cursor. `
   + "To move the cursor, click, drag, or press Left, Right (with Shift: ten samples), Home or End";
 
 /**
  * Builds a gait's part.
  * @param {{side: "from"|"to", name: string, help: string, choose: (gait: string) => void, move: (sample: number) => void}} options
- * @returns {{element: HTMLElement, show: (shown: {gaits: object[], gait: string, document: object|null, sample: number}) => void}}
+ * @returns {{element: HTMLElement, show: (shown: {gaits: Record<string, any>[], gait: string, document: Record<string, any>|null, sample: number}) => void}}
  */
 export function patternGaitStrip({ side, name, help, choose, move }) {
   const select = h("select", { "aria-label": name, title: help, on: { change: () => choose(select.value) } });
@@ -44,13 +67,46 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
   const image = svg("svg", { preserveAspectRatio: "none", class: "pattern-picture", "aria-hidden": "true" });
   const lines = h("div", { class: "pattern-lines", "aria-hidden": "true" });
   const cursor = h("div", { class: "pattern-cursor", "aria-hidden": "true" });
-  const strip = h("div", { class: "pattern-strip", role: "slider", tabindex: "0", "aria-label": `${name}: boundary sample`, "aria-valuemin": "1", "aria-valuemax": "1", "aria-valuenow": "1", data: { arrows: "" },
-    title: cursorHelp(side) }, image, lines, cursor);
-  const element = h("div", { class: "pattern-lane" }, h("div", { class: "pattern-head" }, h("b", { class: "pattern-letter", text: side === "from" ? "A" : "B", "aria-hidden": "true" }), select, words),
-    h("div", { class: "pattern-row" }, h("span", { class: "quiet pattern-side", text: side === "from" ? "from here" : "to here" }), strip));
+  const strip = h(
+    "div",
+    {
+      class: "pattern-strip",
+      role: "slider",
+      tabindex: "0",
+      "aria-label": `${name}: boundary sample`,
+      "aria-valuemin": "1",
+      "aria-valuemax": "1",
+      "aria-valuenow": "1",
+      data: { arrows: "" },
+      title: cursorHelp(side),
+    },
+    image,
+    lines,
+    cursor,
+  );
+  const element = h(
+    "div",
+    { class: "pattern-lane" },
+    h(
+      "div",
+      { class: "pattern-head" },
+      h("b", { class: "pattern-letter", text: side === "from" ? "A" : "B", "aria-hidden": "true" }),
+      select,
+      words,
+    ),
+    h(
+      "div",
+      { class: "pattern-row" },
+      h("span", { class: "quiet pattern-side", text: side === "from" ? "from here" : "to here" }),
+      strip,
+    ),
+  );
   let [drawn, count, at, sampleTime] = [null, 1, 0, 0];
 
-  const go = (sample) => { const next = clamp(sample, 0, count - 1); if (next !== at) move(next); };
+  const go = (sample) => {
+    const next = clamp(sample, 0, count - 1);
+    if (next !== at) move(next);
+  };
   const sampleAt = (event) => {
     const box = strip.getBoundingClientRect();
     return Math.floor(((event.clientX - box.left) / box.width) * count);
@@ -60,10 +116,21 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     strip.setPointerCapture(event.pointerId);
     go(sampleAt(event));
   });
-  strip.addEventListener("pointermove", (event) => { if (strip.hasPointerCapture(event.pointerId)) go(sampleAt(event)); });
+  strip.addEventListener("pointermove", (event) => {
+    if (strip.hasPointerCapture(event.pointerId)) go(sampleAt(event));
+  });
   strip.addEventListener("keydown", (event) => {
     const far = event.shiftKey ? 10 : 1;
-    const goals = { ArrowLeft: at - far, ArrowDown: at - far, ArrowRight: at + far, ArrowUp: at + far, PageDown: at - 10, PageUp: at + 10, Home: 0, End: count - 1 };
+    const goals = {
+      ArrowLeft: at - far,
+      ArrowDown: at - far,
+      ArrowRight: at + far,
+      ArrowUp: at + far,
+      PageDown: at - 10,
+      PageUp: at + 10,
+      Home: 0,
+      End: count - 1,
+    };
     if (goals[event.key] === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
     event.stopPropagation();
@@ -72,7 +139,8 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
 
   function options(gaits, gait) {
     const known = [...select.options].map((option) => `${option.value} ${option.text}`).join("\n");
-    if (known !== gaits.map((one) => `${one.id} ${one.name}`).join("\n")) select.replaceChildren(...gaits.map((one) => h("option", { value: one.id, text: one.name })));
+    if (known !== gaits.map((one) => `${one.id} ${one.name}`).join("\n"))
+      select.replaceChildren(...gaits.map((one) => h("option", { value: one.id, text: one.name })));
     select.value = gait;
   }
 
@@ -99,5 +167,11 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     setAttribute(strip, "aria-valuenow", at + 1);
     setAttribute(strip, "aria-valuetext", `sample ${at + 1} of ${count}, ${fixed(at * step)} s: ${state}`);
   }
-  return { element, show, cursorAt: () => (at + 0.5) / count, sampleTime: () => sampleTime, seconds: () => count * sampleTime };
+  return {
+    element,
+    show,
+    cursorAt: () => (at + 0.5) / count,
+    sampleTime: () => sampleTime,
+    seconds: () => count * sampleTime,
+  };
 }

@@ -7,12 +7,19 @@ import { attempt } from "../lib/toasts.js";
 /** Gaits that a transition can lead from or to: of the shown gait's robot and orientation, no sequences, and none for the robot's clock. */
 export function transitionGaits({ gaits, selected }) {
   const open = gaits.find(({ id }) => id === selected);
-  return open ? gaits.filter(({ robot, orientation, source }) => robot === open.robot && orientation === open.orientation && !["sequence", "poses"].includes(source)) : [];
+  return open
+    ? gaits.filter(
+        ({ robot, orientation, source }) =>
+          robot === open.robot && orientation === open.orientation && !["sequence", "poses"].includes(source),
+      )
+    : [];
 }
 
 /** The timeline of a gait as the page knows it: the open one with its edits under way. */
 export function timelineOf(store, problem, gait) {
-  return gait && gait === store.state.selected ? shownDocument(store.state) : (problem.state.documents[gait] ?? null);
+  return gait && gait === store.state.selected
+    ? shownDocument(store.state)
+    : (problem.state.documents[gait] ?? null);
 }
 
 const STANDING_AT_LEAST = 3;
@@ -26,8 +33,8 @@ const STANDING_AT_LEAST = 3;
 export function midGait({ feet }) {
   const count = feet[0].length;
   const state = (sample) => feet.map((row) => row[sample]).join("");
-  const isSwinging = (sample) => state(sample).includes("0")
-    && feet.filter((row) => row[sample] === "1").length >= STANDING_AT_LEAST;
+  const isSwinging = (sample) =>
+    state(sample).includes("0") && feet.filter((row) => row[sample] === "1").length >= STANDING_AT_LEAST;
   const middles = [];
   for (let first = 0; first < count;) {
     let last = first;
@@ -36,7 +43,9 @@ export function midGait({ feet }) {
     first = last + 1;
   }
   const away = (sample) => Math.abs(sample - (count - 1) / 2);
-  return middles.reduce((best, sample) => (best === null || away(sample) < away(best) ? sample : best), null) ?? 0;
+  return (
+    middles.reduce((best, sample) => (best === null || away(sample) < away(best) ? sample : best), null) ?? 0
+  );
 }
 
 /** Keeps both gaits chosen among those that there are, and their documents at hand. */
@@ -46,7 +55,8 @@ export function mountPatternGaits(store, problem, isOpen) {
   const fetchDocument = attempt(async (gait, line) => {
     try {
       const document = await api.document(gait);
-      if (fetched.get(gait) === line) problem.set({ documents: { ...problem.state.documents, [gait]: document } });
+      if (fetched.get(gait) === line)
+        problem.set({ documents: { ...problem.state.documents, [gait]: document } });
     } catch (error) {
       if (fetched.get(gait) === line) fetched.delete(gait);
       throw error;

@@ -5,7 +5,6 @@ import { h, setAttribute, setText } from "../lib/dom.js";
 import { mountPatternDrawing } from "./pattern_drawing.js";
 import { DENSE, buildRow, fitRow } from "../timeline/timeline_rows.js";
 
-
 const FIXED_TEXTS = { end: "given by a gait", limb: "locked limb", drawn: "drawn", given: "locked" };
 
 function drawCell(cell, { foot, sample, value, fixed, changed }) {
@@ -14,7 +13,10 @@ function drawCell(cell, { foot, sample, value, fixed, changed }) {
   cell.toggleAttribute("data-locked", fixed !== null);
   setAttribute(cell, "data-fixed", fixed);
   cell.toggleAttribute("data-preview", changed);
-  cell.setAttribute("aria-label", `foot ${foot + 1}, sample ${sample + 1}: ${word}${fixed ? `, ${FIXED_TEXTS[fixed]}` : ""}${changed ? ", not as drawn" : ""}`);
+  cell.setAttribute(
+    "aria-label",
+    `foot ${foot + 1}, sample ${sample + 1}: ${word}${fixed ? `, ${FIXED_TEXTS[fixed]}` : ""}${changed ? ", not as drawn" : ""}`,
+  );
 }
 
 function drawRow(line, foot, shown, role) {
@@ -33,21 +35,35 @@ function drawRow(line, foot, shown, role) {
 
 /**
  * Builds the grid.
- * @param {object} problem of `createProblem`
+ * @param {Record<string, any>} problem of `createProblem`
  * @param {{lockLimb: (foot: number) => void}} acts what a click on a row's name does
- * @returns {{element: HTMLElement, show: (shown: object) => void, cancel: () => boolean}} `show` takes `legs`, `samples`,
+ * @returns {{element: HTMLElement, show: (shown: Record<string, any>) => void, cancel: () => boolean}} `show` takes `legs`, `samples`,
  *   `rows` (of 1 and 0, or null while nothing is known), `fixed(foot, sample)` (why, or null), `fixedValue(foot, sample)`,
  *   `before` (rows of the drawing, to mark what differs, or null), `isLocked(foot)`, `limbHelp`, `roles`, `stale`
  */
 export function patternGrid(problem, actions) {
-  const element = h("div", { class: "timeline pattern-grid", role: "grid", "aria-label": "Pattern",
-    "aria-description": "Space changes a cell between swing and stance and fixes the cell. "
+  const element = h("div", {
+    class: "timeline pattern-grid",
+    role: "grid",
+    "aria-label": "Pattern",
+    "aria-description":
+      "Space changes a cell between swing and stance and fixes the cell. "
       + "On a drawn cell, Space frees the cell. "
-      + "K fixes the present value of a cell" });
+      + "K fixes the present value of a cell",
+  });
   let lines = [];
   let now = { samples: 0 };
-  const roving = rovingFocus(() => lines, () => {});
-  const drawing = mountPatternDrawing({ problem, grid: element, lines: () => lines, roving, shown: () => now });
+  const roving = rovingFocus(
+    () => lines,
+    () => {},
+  );
+  const drawing = mountPatternDrawing({
+    problem,
+    grid: element,
+    lines: () => lines,
+    roving,
+    shown: () => now,
+  });
 
   function fit(legs, samples) {
     if (lines.length !== legs) {
@@ -73,7 +89,8 @@ export function patternGrid(problem, actions) {
     show(shown) {
       now = shown;
       element.hidden = shown.legs === 0;
-      if (lines.length !== shown.legs || (lines[0]?.cells.length ?? 0) !== shown.samples) fit(shown.legs, shown.samples);
+      if (lines.length !== shown.legs || (lines[0]?.cells.length ?? 0) !== shown.samples)
+        fit(shown.legs, shown.samples);
       lines.forEach((line, foot) => {
         drawRow(line, foot, shown, shown.roles[foot] ?? "");
         line.row.toggleAttribute("data-limb-locked", shown.isLocked(foot));

@@ -16,16 +16,34 @@ function ofTransition(store, problem) {
   if (!first || !second || first.timeline.feet.length !== second.timeline.feet.length) return null;
   const count = shortest ? (result?.samples ?? samples) : samples;
   const at = ({ timeline }, { sample }) => Math.min(sample, timeline.feet[0].length - 1);
-  const ends = (foot) => [first.timeline.feet[foot][at(first, from)], second.timeline.feet[foot][at(second, to)]];
-  const isLocked = (foot) => given(first, second, foot) || (locked.includes(foot) && ends(foot)[0] === ends(foot)[1]);
+  const ends = (foot) => [
+    first.timeline.feet[foot][at(first, from)],
+    second.timeline.feet[foot][at(second, to)],
+  ];
+  const isLocked = (foot) =>
+    given(first, second, foot) || (locked.includes(foot) && ends(foot)[0] === ends(foot)[1]);
   return {
-    legs: first.timeline.feet.length, samples: count, isLocked, limbHelp: "Click to lock or unlock this "
+    legs: first.timeline.feet.length,
+    samples: count,
+    isLocked,
+    limbHelp:
+      "Click to lock or unlock this "
       + "limb. A locked limb stays in swing or in stance during the whole transition",
     given: (foot) => given(first, second, foot),
-    lockRefusal: (foot) => (ends(foot)[0] === ends(foot)[1] ? null : "This limb cannot be locked, because "
-      + "it stands at one end of the transition and swings at the other end. "
-      + "Move the cursor in one of the two gaits first."),
-    base: (foot, sample) => (sample === 0 ? ["end", ends(foot)[0]] : sample === count - 1 ? ["end", ends(foot)[1]] : isLocked(foot) ? ["limb", ends(foot)[0]] : null),
+    lockRefusal: (foot) =>
+      ends(foot)[0] === ends(foot)[1]
+        ? null
+        : "This limb cannot be locked, because "
+          + "it stands at one end of the transition and swings at the other end. "
+          + "Move the cursor in one of the two gaits first.",
+    base: (foot, sample) =>
+      sample === 0
+        ? ["end", ends(foot)[0]]
+        : sample === count - 1
+          ? ["end", ends(foot)[1]]
+          : isLocked(foot)
+            ? ["limb", ends(foot)[0]]
+            : null,
   };
 }
 
@@ -33,8 +51,13 @@ function ofLimbs(store, problem) {
   const document = shownDocument(store.state);
   const limbs = limbsOf(problem.state, { robot: document.robot, legs: document.timeline.feet.length });
   const isLocked = (foot) => limbs[foot] !== "walks";
-  return { legs: limbs.length, samples: problem.state.cycle, isLocked, limbHelp: "Click to hold this limb "
-    + "up, or to let the limb walk", base: (foot) => (isLocked(foot) ? ["limb", limbs[foot] === "stands" ? "1" : "0"] : null) };
+  return {
+    legs: limbs.length,
+    samples: problem.state.cycle,
+    isLocked,
+    limbHelp: "Click to hold this limb " + "up, or to let the limb walk",
+    base: (foot) => (isLocked(foot) ? ["limb", limbs[foot] === "stands" ? "1" : "0"] : null),
+  };
 }
 
 function ofDrawing(store, problem) {
@@ -42,8 +65,17 @@ function ofDrawing(store, problem) {
   const [count, painted] = [feet[0].length, problem.state.painted];
   const stays = (foot, sample) => locked?.[foot]?.[sample] === "1" || (painted && feet[foot][sample] === "0");
   return {
-    legs: feet.length, samples: count, isLocked: () => false, limbHelp: null, before: feet,
-    base: (foot, sample) => (sample === 0 || sample === count - 1 ? ["end", feet[foot][sample]] : stays(foot, sample) ? ["given", feet[foot][sample]] : null),
+    legs: feet.length,
+    samples: count,
+    isLocked: () => false,
+    limbHelp: null,
+    before: feet,
+    base: (foot, sample) =>
+      sample === 0 || sample === count - 1
+        ? ["end", feet[foot][sample]]
+        : stays(foot, sample)
+          ? ["given", feet[foot][sample]]
+          : null,
   };
 }
 
@@ -57,8 +89,8 @@ function rowsOf({ result, running, chosen, hovered }, { legs, samples }) {
 
 /**
  * What `patternGrid` shows, or null while the gaits are not known yet.
- * @param {object} store
- * @param {object} problem
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} problem
  */
 export function patternGridModel(store, problem) {
   if (!store.state.view) return null;
@@ -66,11 +98,22 @@ export function patternGridModel(store, problem) {
   if (!source) return null;
   const [drawn, { freed, waiting, running }] = [drawnCells(problem.state), problem.state];
   const given = (foot, sample) => (`${foot},${sample}` in freed ? null : source.base(foot, sample));
-  const own = (foot, sample) => given(foot, sample) ?? (`${foot},${sample}` in drawn ? ["drawn", String(drawn[`${foot},${sample}`])] : null);
+  const own = (foot, sample) =>
+    given(foot, sample)
+    ?? (`${foot},${sample}` in drawn ? ["drawn", String(drawn[`${foot},${sample}`])] : null);
   return {
-    ...source, roles: store.state.view.roles ?? [], rows: rowsOf(problem.state, source), stale: waiting && !running?.pattern,
-    isFree: (foot, sample) => foot < source.legs && (problem.state.shortest || sample < source.samples) && given(foot, sample) === null,
+    ...source,
+    roles: store.state.view.roles ?? [],
+    rows: rowsOf(problem.state, source),
+    stale: waiting && !running?.pattern,
+    isFree: (foot, sample) =>
+      foot < source.legs
+      && (problem.state.shortest || sample < source.samples)
+      && given(foot, sample) === null,
     fixed: (foot, sample) => own(foot, sample)?.[0] ?? null,
-    fixedValue: (foot, sample) => { const found = own(foot, sample); return found ? Number(found[1]) : null; },
+    fixedValue: (foot, sample) => {
+      const found = own(foot, sample);
+      return found ? Number(found[1]) : null;
+    },
   };
 }

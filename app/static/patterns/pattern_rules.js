@@ -11,7 +11,9 @@ function numberInput(name, help, take) {
     if (Number.isFinite(input.valueAsNumber)) take(input.valueAsNumber);
     else input.value = input.dataset.shown;
   });
-  input.addEventListener("keydown", (event) => { if (event.key === "Enter") input.blur(); });
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") input.blur();
+  });
   return input;
 }
 
@@ -28,12 +30,28 @@ function ruleRow(problem, one) {
     if (next.on === (one.usual !== null) && next.value === (one.first ?? one.usual)) delete rules[one.rule];
     problem.set({ rules });
   };
-  const box = h("input", { type: "checkbox", role: "switch", "aria-label": `${one.name}: on`, title: one.help, on: { change: () => change({ on: box.checked }) } });
+  const box = h("input", {
+    type: "checkbox",
+    role: "switch",
+    "aria-label": `${one.name}: on`,
+    title: one.help,
+    on: { change: () => change({ on: box.checked }) },
+  });
   const input = numberInput(`${one.name}, ${one.unit}`, one.help, (value) => change({ value }));
-  const usual = h("span", { class: "quiet pattern-usual", title: one.usual === null
-    ? "The footfall thesis (F) has no such rule"
-    : `Number in the footfall thesis (F): ${one.usual} ${one.unit}` });
-  const element = h("li", { class: "pattern-rule" }, h("label", { title: one.help }, box, h("span", { text: one.name })), h("span", { class: "box", data: { unit: one.unit } }, input), usual);
+  const usual = h("span", {
+    class: "quiet pattern-usual",
+    title:
+      one.usual === null
+        ? "The footfall thesis (F) has no such rule"
+        : `Number in the footfall thesis (F): ${one.usual} ${one.unit}`,
+  });
+  const element = h(
+    "li",
+    { class: "pattern-rule" },
+    h("label", { title: one.help }, box, h("span", { text: one.name })),
+    h("span", { class: "box", data: { unit: one.unit } }, input),
+    usual,
+  );
   return {
     element,
     show(state) {
@@ -55,14 +73,32 @@ function weightRow(problem, one) {
     if (value === one.usual) delete weights[one.weight];
     problem.set({ weights });
   });
-  const element = h("li", { class: "pattern-rule" }, h("span", { text: one.name, title: one.help }), h("span", { class: "box" }, input), h("span", { class: "quiet pattern-usual", text: String(one.usual) }));
-  return { element, show: (state) => { showNumber(input, state.weights[one.weight] ?? one.usual); element.toggleAttribute("data-own", one.weight in state.weights); } };
+  const element = h(
+    "li",
+    { class: "pattern-rule" },
+    h("span", { text: one.name, title: one.help }),
+    h("span", { class: "box" }, input),
+    h("span", { class: "quiet pattern-usual", text: String(one.usual) }),
+  );
+  return {
+    element,
+    show: (state) => {
+      showNumber(input, state.weights[one.weight] ?? one.usual);
+      element.toggleAttribute("data-own", one.weight in state.weights);
+    },
+  };
 }
 
 function fold(title, rows, reset, isOwn) {
   const note = h("span", { class: "quiet" });
   const button = h("button", { class: "link", text: "Use the thesis's numbers", on: { click: reset } });
-  const element = h("details", { class: "more" }, h("summary", {}, title, note), h("ul", { class: "pattern-rules", "aria-label": title }, ...rows.map((row) => row.element)), button);
+  const element = h(
+    "details",
+    { class: "more" },
+    h("summary", {}, title, note),
+    h("ul", { class: "pattern-rules", "aria-label": title }, ...rows.map((row) => row.element)),
+    button,
+  );
   return {
     element,
     show(state) {
@@ -76,9 +112,25 @@ function fold(title, rows, reset, isOwn) {
 
 /** Builds both lists, and keeps them current. */
 export function patternRules(problem) {
-  const rules = fold("Rules", RULES.map((one) => ruleRow(problem, one)), () => problem.set({ rules: {} }), (state) => Object.keys(state.rules).length);
-  const weights = fold("What counts as better", WEIGHTS.map((one) => weightRow(problem, one)), () => problem.set({ weights: {} }), (state) => Object.keys(state.weights).length);
+  const rules = fold(
+    "Rules",
+    RULES.map((one) => ruleRow(problem, one)),
+    () => problem.set({ rules: {} }),
+    (state) => Object.keys(state.rules).length,
+  );
+  const weights = fold(
+    "What counts as better",
+    WEIGHTS.map((one) => weightRow(problem, one)),
+    () => problem.set({ weights: {} }),
+    (state) => Object.keys(state.weights).length,
+  );
   rules.element.open = true;
-  problem.watch(({ rules: own, weights: heavy, error }) => [own, heavy, error], (state) => { rules.show(state); weights.show(state); });
+  problem.watch(
+    ({ rules: own, weights: heavy, error }) => [own, heavy, error],
+    (state) => {
+      rules.show(state);
+      weights.show(state);
+    },
+  );
   return [rules.element, weights.element];
 }

@@ -15,7 +15,14 @@ const SILENCE_MS = 3000;
 const GONE = "The studio was started again before this search had ended. Change a value to search again.";
 
 /** What of a gait's document the search for a gait of some limbs depends on: the gait that it makes is alike in all of it. */
-const aboutLimbs = ({ robot, orientation, direction, step, options, timeline }) => ({ robot, orientation, direction, travel: step.slice(0, 2), options, time: timeline.sample_time });
+const aboutLimbs = ({ robot, orientation, direction, step, options, timeline }) => ({
+  robot,
+  orientation,
+  direction,
+  travel: step.slice(0, 2),
+  options,
+  time: timeline.sample_time,
+});
 
 /** Rows of the pattern that is looked at, or null. */
 export function shownRows({ result, running, chosen }) {
@@ -24,8 +31,8 @@ export function shownRows({ result, running, chosen }) {
 
 /**
  * Keeps the result current while the panel is open.
- * @param {object} store the page's
- * @param {object} problem of `createProblem`
+ * @param {import("../state/store.js").Store} store the page's
+ * @param {Record<string, any>} problem of `createProblem`
  * @param {() => boolean} isOpen
  * @returns {{submit: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
  */
@@ -57,20 +64,38 @@ export function mountSearch(store, problem, isOpen) {
     const shown = patternGridModel(store, problem);
     return bodyOf(problem.state, {
       isFree: (limb, sample) => !shown || shown.isFree(limb, sample),
-      gait: state.selected, limbs: limbsOf(problem.state, about), document: state.pending.length ? document : null, drawing: drawingFor() });
+      gait: state.selected,
+      limbs: limbsOf(problem.state, about),
+      document: state.pending.length ? document : null,
+      drawing: drawingFor(),
+    });
   }
 
-  const documents = () => (problem.state.mode === "transition" ? [problem.state.from.gait, problem.state.to.gait] : [store.state.selected])
-    .map((gait) => timelineOf(store, problem, gait)).map((document) => document && JSON.stringify(problem.state.mode === "limbs" ? aboutLimbs(document) : document));
+  const documents = () =>
+    (problem.state.mode === "transition"
+      ? [problem.state.from.gait, problem.state.to.gait]
+      : [store.state.selected]
+    )
+      .map((gait) => timelineOf(store, problem, gait))
+      .map(
+        (document) =>
+          document && JSON.stringify(problem.state.mode === "limbs" ? aboutLimbs(document) : document),
+      );
 
   /** The problem without the gait's name where only the gait's properties matter. */
-  const submittedBody = (now) => JSON.stringify(problem.state.mode === "limbs" ? { ...now, gait: null } : now);
+  const submittedBody = (now) =>
+    JSON.stringify(problem.state.mode === "limbs" ? { ...now, gait: null } : now);
 
   /** Whether the problem differs from the one submitted last. A document that is not loaded counts as the same. */
   function isNew() {
     const { result, waiting, error } = problem.state;
     if (!submitted || error || (!waiting && (!result || result.status === "cancelled"))) return true;
-    return submitted.body !== submittedBody(body()) || documents().some((one, index) => one && submitted.documents[index] && one !== submitted.documents[index]);
+    return (
+      submitted.body !== submittedBody(body())
+      || documents().some(
+        (one, index) => one && submitted.documents[index] && one !== submitted.documents[index],
+      )
+    );
   }
 
   function hear(message) {
@@ -88,12 +113,23 @@ export function mountSearch(store, problem, isOpen) {
     }
     const before = problem.state.result;
     if (isMore) {
-      if (state === "done" && result.patterns.length && current === latest) problem.set({ result: { id, ...result, seconds: before.seconds } });
+      if (state === "done" && result.patterns.length && current === latest)
+        problem.set({ result: { id, ...result, seconds: before.seconds } });
       return;
     }
-    problem.set({ running: null, waiting: current !== latest, chosen: 0, error: state === "failed" ? { sentence } : null, result: state === "failed" ? before : { id, ...result } });
+    problem.set({
+      running: null,
+      waiting: current !== latest,
+      chosen: 0,
+      error: state === "failed" ? { sentence } : null,
+      result: state === "failed" ? before : { id, ...result },
+    });
     measured("question to pattern", since);
-    if (result?.status === "optimal" && problem.state.count > 1 && current === latest) timer = setTimeout(() => offer({ body: { ...sent, count: problem.state.count }, more: true, number: latest }), REST_MS);
+    if (result?.status === "optimal" && problem.state.count > 1 && current === latest)
+      timer = setTimeout(
+        () => offer({ body: { ...sent, count: problem.state.count }, more: true, number: latest }),
+        REST_MS,
+      );
   }
 
   async function poll(id) {
@@ -119,7 +155,12 @@ export function mountSearch(store, problem, isOpen) {
     } catch (error) {
       asked = 0;
       if (isMore) return;
-      problem.set({ running: null, waiting: current !== latest, result: null, error: { sentence: error.message, where: error.where } });
+      problem.set({
+        running: null,
+        waiting: current !== latest,
+        result: null,
+        error: { sentence: error.message, where: error.where },
+      });
     }
   });
 
@@ -137,13 +178,28 @@ export function mountSearch(store, problem, isOpen) {
   }
 
   /** Submits after another gait was opened or edited, unless the problem is the same. */
-  const submitIfNew = () => { if (isOpen() && store.state.view && isNew()) submit(); };
+  const submitIfNew = () => {
+    if (isOpen() && store.state.view && isNew()) submit();
+  };
 
   problem.watch(problemParts, submit);
-  problem.watch(({ documents: known }) => [known], () => { if (submitted) submitIfNew(); });
+  problem.watch(
+    ({ documents: known }) => [known],
+    () => {
+      if (submitted) submitIfNew();
+    },
+  );
   store.watch(({ view, pending }) => [view?.id, view?.revision, pending.length], submitIfNew);
-  store.watch(({ pattern }) => [pattern], ({ pattern }) => { if (pattern) hear(pattern); });
+  store.watch(
+    ({ pattern }) => [pattern],
+    ({ pattern }) => {
+      if (pattern) hear(pattern);
+    },
+  );
 
-  const onRunning = (act) => attempt(async () => { if (problem.state.running) await act(problem.state.running.id); });
+  const onRunning = (act) =>
+    attempt(async () => {
+      if (problem.state.running) await act(problem.state.running.id);
+    });
   return { submit: submitIfNew, cancel: onRunning(api.cancelPattern), useNow: onRunning(api.usePattern) };
 }

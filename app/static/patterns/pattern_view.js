@@ -21,30 +21,73 @@ const TITLES = { transition: "Transition", limbs: "One cycle", drawing: "Complet
 function withStyles() {
   const address = new URL("./patterns.css", import.meta.url).pathname;
   return new Promise((resolve) => {
-    document.head.append(h("link", { rel: "stylesheet", href: address, on: { load: resolve, error: resolve } }));
+    document.head.append(
+      h("link", { rel: "stylesheet", href: address, on: { load: resolve, error: resolve } }),
+    );
   });
 }
 
 /** Lines from the cursors to the transition's ends. */
 function bridge(name) {
   const path = svg("path", { d: "" });
-  const element = h("div", { class: "pattern-bridge", "aria-hidden": "true", data: { name } }, svg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none" }, path));
-  return { element, show: (cursor, end) => path.setAttribute("d", name === "from" ? `M${cursor * 100} 0 C${cursor * 100} 6 ${end} 4 ${end} 10` : `M${end} 0 C${end} 6 ${cursor * 100} 4 ${cursor * 100} 10`) };
+  const element = h(
+    "div",
+    { class: "pattern-bridge", "aria-hidden": "true", data: { name } },
+    svg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none" }, path),
+  );
+  return {
+    element,
+    show: (cursor, end) =>
+      path.setAttribute(
+        "d",
+        name === "from"
+          ? `M${cursor * 100} 0 C${cursor * 100} 6 ${end} 4 ${end} 10`
+          : `M${end} 0 C${end} 6 ${cursor * 100} 4 ${cursor * 100} 10`,
+      ),
+  };
 }
 
-const hatch = () => svg("svg", { class: "sprite", "aria-hidden": "true" }, svg("defs", {}, svg("pattern", { id: "pattern-hatch", width: 0.4, height: 0.4, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
-  svg("line", { x1: 0, y1: 0, x2: 0, y2: 0.4, "stroke-width": 0.22, class: "pattern-hatch-line" }))));
+const hatch = () =>
+  svg(
+    "svg",
+    { class: "sprite", "aria-hidden": "true" },
+    svg(
+      "defs",
+      {},
+      svg(
+        "pattern",
+        {
+          id: "pattern-hatch",
+          width: 0.4,
+          height: 0.4,
+          patternUnits: "userSpaceOnUse",
+          patternTransform: "rotate(45)",
+        },
+        svg("line", { x1: 0, y1: 0, x2: 0, y2: 0.4, "stroke-width": 0.22, class: "pattern-hatch-line" }),
+      ),
+    ),
+  );
 
 function gaitParts(store, problem) {
-  const part = (side, name) => patternGaitStrip({ side, name, help: `The transition `
-    + `${side === "from" ? "starts in" : "ends in"} this gait`,
-    choose: (gait) => problem.set({ [side]: { gait, sample: null } }), move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }) });
+  const part = (side, name) =>
+    patternGaitStrip({
+      side,
+      name,
+      help: `The transition ` + `${side === "from" ? "starts in" : "ends in"} this gait`,
+      choose: (gait) => problem.set({ [side]: { gait, sample: null } }),
+      move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }),
+    });
   const parts = { from: part("from", "Gait A"), to: part("to", "Gait B") };
   return {
     ...parts,
     show() {
       const gaits = transitionGaits(store.state);
-      for (const side of ["from", "to"]) parts[side].show({ gaits, ...problem.state[side], document: timelineOf(store, problem, problem.state[side].gait) });
+      for (const side of ["from", "to"])
+        parts[side].show({
+          gaits,
+          ...problem.state[side],
+          document: timelineOf(store, problem, problem.state[side].gait),
+        });
     },
   };
 }
@@ -65,13 +108,15 @@ function limbLocking(store, problem, shown) {
     else if (refusal) toast(refusal);
     else problem.set({ locked: [...locked, foot] });
   };
-  return (foot) => ({ transition: lock, limbs: hold }[problem.state.mode]?.(foot));
+  return (foot) => ({ transition: lock, limbs: hold })[problem.state.mode]?.(foot);
 }
 
 /** Gives each lane its share of one time axis, 0 to 1: the longest lane is as wide as there is room. */
 function shareAxis(lanes, seconds) {
   const longest = Math.max(...Object.values(seconds));
-  const shares = Object.fromEntries(Object.entries(seconds).map(([name, value]) => [name, longest > 0 ? value / longest : 1]));
+  const shares = Object.fromEntries(
+    Object.entries(seconds).map(([name, value]) => [name, longest > 0 ? value / longest : 1]),
+  );
   for (const [name, share] of Object.entries(shares)) lanes[name].style.setProperty("--share", share);
   return shares;
 }
@@ -79,17 +124,36 @@ function shareAxis(lanes, seconds) {
 function lowerPart(store, problem, lock) {
   const [parts, grid] = [gaitParts(store, problem), patternGrid(problem, { lockLimb: lock })];
   const [title, note] = [h("b"), h("span", { class: "quiet pattern-state" })];
-  const clear = h("button", { class: "link", text: "Free drawn cells",
+  const clear = h("button", {
+    class: "link",
+    text: "Free drawn cells",
     title: "Frees all cells that you drew here, so that the search chooses their values again",
-    on: { click: () => problem.set({ ...withCells(problem.state, {}), freed: {} }) } });
+    on: { click: () => problem.set({ ...withCells(problem.state, {}), freed: {} }) },
+  });
   const [above, below] = [bridge("from"), bridge("to")];
   const empty = h("p", { class: "teach", hidden: true });
-  const sought = h("div", { class: "pattern-lane pattern-sought" }, h("div", { class: "pattern-head" }, title, note, clear), grid.element, empty);
-  const element = h("div", { class: "pattern-view", role: "group", "aria-label": "Pattern search" }, hatch(), parts.from.element, above.element,
-    sought, below.element, parts.to.element);
+  const sought = h(
+    "div",
+    { class: "pattern-lane pattern-sought" },
+    h("div", { class: "pattern-head" }, title, note, clear),
+    grid.element,
+    empty,
+  );
+  const element = h(
+    "div",
+    { class: "pattern-view", role: "group", "aria-label": "Pattern search" },
+    hatch(),
+    parts.from.element,
+    above.element,
+    sought,
+    below.element,
+    parts.to.element,
+  );
   const lanes = { from: parts.from.element, sought, to: parts.to.element };
   return {
-    element, cancel: grid.cancel, lanes,
+    element,
+    cancel: grid.cancel,
+    lanes,
     show(shown) {
       const isTransition = problem.state.mode === "transition";
       for (const one of [parts.from, above, below, parts.to]) one.element.hidden = !isTransition;
@@ -104,7 +168,11 @@ function lowerPart(store, problem, lock) {
       grid.show(shown);
       element.dataset.feet = shown.legs;
       setText(note, `${shown.samples} samples · ${drawnText(problem.state)}`);
-      const seconds = { from: parts.from.seconds(), sought: shown.samples * parts.from.sampleTime(), to: parts.to.seconds() };
+      const seconds = {
+        from: parts.from.seconds(),
+        sought: shown.samples * parts.from.sampleTime(),
+        to: parts.to.seconds(),
+      };
       const share = shareAxis(lanes, isTransition ? seconds : { from: 1, sought: 1, to: 1 });
       above.show(parts.from.cursorAt() * share.from, (50 / shown.samples) * share.sought);
       below.show(parts.to.cursorAt() * share.to, (100 - 50 / shown.samples) * share.sought);
@@ -119,8 +187,8 @@ function drawnText(state) {
 
 /**
  * Builds the panel when it is first opened.
- * @param {object} store
- * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>}} page
+ * @param {import("../state/store.js").Store} store
+ * @param {{edits: Record<string, any>, playback: import("../preview/playback.js").Playback, show: (id: string) => Promise<void>}} page
  * @returns {Promise<{open: (mode: string|null) => void, close: () => void, cancel: () => boolean}>}
  */
 export async function mountPatterns(store, page) {
@@ -135,13 +203,32 @@ export async function mountPatterns(store, page) {
   patternPlayhead(store, problem, page.playback, lower.lanes);
   const fields = patternFields(store, problem, lock);
   const actions = patternActions(store, problem, page);
-  const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
-    h("header", { class: "inspector-head" }, h("h2", { text: "Pattern search" }),
-      h("p", { class: "quiet", text: "The search finds which feet stand at each sample. "
-        + "To close this panel, open the tab Cells." })),
-    h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(problem, search, (hovered) => problem.set({ hovered })), ...patternRules(problem)), actions.element);
+  const panel = h(
+    "div",
+    { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
+    h(
+      "header",
+      { class: "inspector-head" },
+      h("h2", { text: "Pattern search" }),
+      h("p", {
+        class: "quiet",
+        text:
+          "The search finds which feet stand at each sample. " + "To close this panel, open the tab Cells.",
+      }),
+    ),
+    h(
+      "div",
+      { class: "pattern-scroll" },
+      fields.element,
+      ...patternResult(problem, search, (hovered) => problem.set({ hovered })),
+      ...patternRules(problem),
+    ),
+    actions.element,
+  );
   const inspector = byId("inspector");
-  const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) => inspector.querySelector(`:scope > ${part}`));
+  const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) =>
+    inspector.querySelector(`:scope > ${part}`),
+  );
   const setOpen = (on) => {
     open = on;
     document.body.toggleAttribute("data-patterns", on);
@@ -170,7 +257,18 @@ export async function mountPatterns(store, page) {
   return {
     open(mode) {
       setOpen(true);
-      if (mode) problem.set({ mode, ...(mode === "transition" && store.state.selected ? { from: { gait: store.state.selected, sample: problem.state.from.gait === store.state.selected ? problem.state.from.sample : null } } : {}) });
+      if (mode)
+        problem.set({
+          mode,
+          ...(mode === "transition" && store.state.selected
+            ? {
+                from: {
+                  gait: store.state.selected,
+                  sample: problem.state.from.gait === store.state.selected ? problem.state.from.sample : null,
+                },
+              }
+            : {}),
+        });
       gaits.choose();
       search.submit();
       render();
@@ -216,9 +314,9 @@ function placeOf(store, problem, time) {
 
 /**
  * Shows the playhead in the lower part while a pattern walks.
- * @param {object} store
- * @param {object} problem
- * @param {Playback} playback
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} problem
+ * @param {import("../preview/playback.js").Playback} playback
  * @param {{from: HTMLElement, sought: HTMLElement, to: HTMLElement}} lanes
  */
 function patternPlayhead(store, problem, playback, lanes) {

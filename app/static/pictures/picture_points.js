@@ -34,7 +34,10 @@ function dragging(handle, picture, lens, { moving, moved }) {
   });
   handle.addEventListener("pointermove", (event) => {
     if (!held) return;
-    const place = picture.toPlace({ x: event.clientX - held.left + held.dx, y: event.clientY - held.top + held.dy });
+    const place = picture.toPlace({
+      x: event.clientX - held.left + held.dx,
+      y: event.clientY - held.top + held.dy,
+    });
     if (!picture.isInside(place)) return;
     held.changed = true;
     moving(place);
@@ -53,7 +56,7 @@ function dragging(handle, picture, lens, { moving, moved }) {
 
 /**
  * Builds the points.
- * @param {object} picture of `pictureView`
+ * @param {Record<string, any>} picture of `pictureView`
  * @param {{add: (place: number[]) => void, move: (index: number, place: number[], last: boolean) => void, remove: (index: number) =>
  *   void, chosen: (index: number|null) => void}} acts `last` is false while a finger drags
  * @returns {{show: (places: number[][]) => void, focus: (index: number) => void, allow: (isOn: boolean) => void}} `allow` says
@@ -90,26 +93,39 @@ export function picturePoints(picture, { add, move, remove, chosen }) {
   }
 
   function handle(index) {
-    const title = "Drag the point to move it. The arrow keys move the point by 1 px, with Shift by 10 px, "
+    const title =
+      "Drag the point to move it. The arrow keys move the point by 1 px, with Shift by 10 px, "
       + "with Alt by 0.1 px. The key Delete removes the point";
-    const element = h("button", { type: "button", class: "video-point", title, data: { arrows: "", keys: "" } },
-      h("span", { text: String(index + 1) }));
-    dragging(element, picture, lens, { moving: (place) => goTo(index, place, false), moved: () => move(index, places[index], true) });
-    element.addEventListener("keydown", (event) => pressed(event, { nudge: (by) => nudge(index, by), remove: () => remove(index) }));
+    const element = h(
+      "button",
+      { type: "button", class: "video-point", title, data: { arrows: "", keys: "" } },
+      h("span", { text: String(index + 1) }),
+    );
+    dragging(element, picture, lens, {
+      moving: (place) => goTo(index, place, false),
+      moved: () => move(index, places[index], true),
+    });
+    element.addEventListener("keydown", (event) =>
+      pressed(event, { nudge: (by) => nudge(index, by), remove: () => remove(index) }),
+    );
     element.addEventListener("focus", () => chosen(index));
     element.addEventListener("blur", () => lens.show(null));
     return element;
   }
 
   picture.onView(() => handles.forEach((_, index) => put(index)));
-  picture.onHover((place) => { if (isOn || place === null) lens.show(place); });
-  picture.onClick((place) => { if (isOn) add(place); });
+  picture.onHover((place) => {
+    if (isOn || place === null) lens.show(place);
+  });
+  picture.onClick((place) => {
+    if (isOn) add(place);
+  });
   return {
     show(next) {
       while (handles.length > next.length) handles.pop().remove();
       places = next.map((place) => [...place]);
       places.forEach((_, index) => {
-        if (!handles[index]) picture.layer.append(handles[index] = handle(index));
+        if (!handles[index]) picture.layer.append((handles[index] = handle(index)));
         label(index);
         put(index);
       });
@@ -129,11 +145,17 @@ const AWAY = 22;
 
 /**
  * Builds the loupe over a picture.
- * @param {object} picture of `pictureView`
+ * @param {Record<string, any>} picture of `pictureView`
  * @returns {{show: (place: number[]|null) => void}} null hides it
  */
 function loupe(picture) {
-  const canvas = h("canvas", { class: "video-loupe", width: SIZE, height: SIZE, "aria-hidden": "true", hidden: true });
+  const canvas = h("canvas", {
+    class: "video-loupe",
+    width: SIZE,
+    height: SIZE,
+    "aria-hidden": "true",
+    hidden: true,
+  });
   const pen = canvas.getContext("2d");
   picture.element.append(canvas);
 
@@ -143,9 +165,19 @@ function loupe(picture) {
     pen.fillStyle = "#808080";
     pen.fillRect(0, 0, SIZE, SIZE);
     const shown = picture.image.naturalWidth / picture.size.width;
-    pen.drawImage(picture.image, ...[x + 0.5 - side / 2, y + 0.5 - side / 2, side, side].map((value) => value * shown), 0, 0, SIZE, SIZE);
+    pen.drawImage(
+      picture.image,
+      ...[x + 0.5 - side / 2, y + 0.5 - side / 2, side, side].map((value) => value * shown),
+      0,
+      0,
+      SIZE,
+      SIZE,
+    );
     const middle = SIZE / 2 + 0.5;
-    for (const [color, width] of [["#000", 3], ["#fff", 1]]) {
+    for (const [color, width] of [
+      ["#000", 3],
+      ["#fff", 1],
+    ]) {
       pen.strokeStyle = color;
       pen.lineWidth = width;
       pen.beginPath();

@@ -13,7 +13,13 @@ const MOST_RETRY_MS = 10000;
 
 function frameSlider(moved) {
   const range = h("input", { type: "range", min: "0", step: "1", value: "0", "aria-label": "Frame" });
-  const number = h("input", { type: "number", min: "0", step: "1", value: "0", "aria-label": "Frame number" });
+  const number = h("input", {
+    type: "number",
+    min: "0",
+    step: "1",
+    value: "0",
+    "aria-label": "Frame number",
+  });
   const words = h("span", { class: "quiet number" });
   const element = h("div", { class: "video-frames" }, range, number, words);
   let rate = 1;
@@ -37,16 +43,18 @@ function frameSlider(moved) {
       range.max = number.max = String(Math.max(frames - 1, 0));
       show(Math.min(frame, Number(range.max)));
     },
-    get frame() { return Number(range.value); },
+    get frame() {
+      return Number(range.value);
+    },
   };
 }
 
 /**
  * Opens the picture.
- * @param {object} source of `videoSource` or `cameraSource`
+ * @param {Record<string, any>} source of `videoSource` or `cameraSource`
  * @param {number} [frame] that is shown first
  * @param {(why: string|null) => void} [lost] gets why there is no current picture, and null when there is one again
- * @returns {object} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a picture, `act(frame)` gives a blob, an
+ * @returns {Record<string, any>} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a picture, `act(frame)` gives a blob, an
  *   address or null where it is out of date; `away(why)`: the server's reason if a camera is gone, or null;
  *   `refresh()`; `close()`; `source`
  */
@@ -88,16 +96,25 @@ export function openStage(source, frame = 0, lost = () => {}) {
   });
   const slider = frameSlider(offer);
   slider.open(source, frame);
-  const element = h("section", { class: "video-stage", "aria-label": "Picture", data: { keys: "" } },
-    h("header", {}, title, note, slider.element), picture.element);
+  const element = h(
+    "section",
+    { class: "video-stage", "aria-label": "Picture", data: { keys: "" } },
+    h("header", {}, title, note, slider.element),
+    picture.element,
+  );
   document.querySelector("section.stage").append(element);
   document.body.toggleAttribute("data-video", true);
   offer(slider.frame);
 
   return {
-    picture, source,
-    get frame() { return slider.frame; },
-    get isAway() { return reason !== null; },
+    picture,
+    source,
+    get frame() {
+      return slider.frame;
+    },
+    get isAway() {
+      return reason !== null;
+    },
     fetches(act) {
       fetching = act ?? plain;
       offer(slider.frame);

@@ -2,4 +2,6 @@
 
 import { h } from "../lib/dom.js";
 
-document.head.append(h("link", { rel: "stylesheet", href: new URL("./pictures.css", import.meta.url).pathname }));
+document.head.append(
+  h("link", { rel: "stylesheet", href: new URL("./pictures.css", import.meta.url).pathname }),
+);

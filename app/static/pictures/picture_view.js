@@ -62,18 +62,31 @@ function mountPointer(frame, { pan, zoom, click, hover }) {
     from = null;
     if (clicked) click(at(event));
   });
-  frame.addEventListener("pointercancel", () => { from = null; });
+  frame.addEventListener("pointercancel", () => {
+    from = null;
+  });
   frame.addEventListener("pointerleave", () => hover(null));
-  frame.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    zoom(Math.exp(-event.deltaY * WHEEL), at(event));
-  }, { passive: false });
+  frame.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      zoom(Math.exp(-event.deltaY * WHEEL), at(event));
+    },
+    { passive: false },
+  );
 }
 
 function mountKeys(frame, { closer, further, fit, pan }) {
   const actions = {
-    "+": closer, "=": closer, "-": further, "−": further, f: fit,
-    ArrowLeft: () => pan(PAN_PX, 0), ArrowRight: () => pan(-PAN_PX, 0), ArrowUp: () => pan(0, PAN_PX), ArrowDown: () => pan(0, -PAN_PX),
+    "+": closer,
+    "=": closer,
+    "-": further,
+    "−": further,
+    f: fit,
+    ArrowLeft: () => pan(PAN_PX, 0),
+    ArrowRight: () => pan(-PAN_PX, 0),
+    ArrowUp: () => pan(0, PAN_PX),
+    ArrowDown: () => pan(0, -PAN_PX),
   };
   frame.addEventListener("keydown", (event) => {
     const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
@@ -84,10 +97,21 @@ function mountKeys(frame, { closer, further, fit, pan }) {
 }
 
 function zoomButtons({ zoom, fit, middle }) {
-  const button = (text, name, act) => h("button", { type: "button", class: "icon-only", "aria-label": name, title: name, text, on: { click: act } });
+  const button = (text, name, act) =>
+    h("button", {
+      type: "button",
+      class: "icon-only",
+      "aria-label": name,
+      title: name,
+      text,
+      on: { click: act },
+    });
   const fitting = button("", "Show the whole picture", fit);
   fitting.append(icon("fit"));
-  const [out, closer] = [button("−", "Zoom out", () => zoom(1 / STEP, middle())), button("+", "Zoom in", () => zoom(STEP, middle()))];
+  const [out, closer] = [
+    button("−", "Zoom out", () => zoom(1 / STEP, middle())),
+    button("+", "Zoom in", () => zoom(STEP, middle())),
+  ];
   return h("div", { class: "video-zoom", role: "group", "aria-label": "Zoom" }, out, closer, fitting);
 }
 
@@ -99,7 +123,9 @@ function mountImage(replace) {
   return async (source, size) => {
     const number = ++requested;
     const url = source instanceof Blob ? URL.createObjectURL(source) : source;
-    const forget = () => { if (url !== source) URL.revokeObjectURL(url); };
+    const forget = () => {
+      if (url !== source) URL.revokeObjectURL(url);
+    };
     const next = newImage();
     next.src = url;
     try {
@@ -112,7 +138,10 @@ function mountImage(replace) {
       forget();
       return false;
     }
-    replace(next, size ? { width: size[0], height: size[1] } : { width: next.naturalWidth, height: next.naturalHeight });
+    replace(
+      next,
+      size ? { width: size[0], height: size[1] } : { width: next.naturalWidth, height: next.naturalHeight },
+    );
     shown?.();
     shown = forget;
     return true;
@@ -122,7 +151,7 @@ function mountImage(replace) {
 /**
  * Builds the view. Places are in the picture's pixels as cameras count them: 0, 0 is the middle of the first pixel.
  * @param {string} name of the picture, for assistive tools
- * @returns {object} `element`; `show(blob or address, size)`, where the size in px is told if the picture comes smaller; `drawing`, an SVG group in the picture's pixels; `layer` for points over it;
+ * @returns {Record<string, any>} `element`; `show(blob or address, size)`, where the size in px is told if the picture comes smaller; `drawing`, an SVG group in the picture's pixels; `layer` for points over it;
  *   `size`; `toScreen(place)`; `toPlace(screen)`; `onView(act)` after each change of scale; `onClick(act)` and `onHover(act)`
  *   with the place; `reveal(place)`; `image`
  */
@@ -143,27 +172,70 @@ export function pictureView(name) {
   function drawn() {
     image.style.transform = `translate(${view.x}px, ${view.y}px) scale(${view.scale})`;
     image.toggleAttribute("data-close", view.scale >= 4);
-    drawing.setAttribute("transform", `translate(${view.x + view.scale / 2} ${view.y + view.scale / 2}) scale(${view.scale})`);
+    drawing.setAttribute(
+      "transform",
+      `translate(${view.x + view.scale / 2} ${view.y + view.scale / 2}) scale(${view.scale})`,
+    );
     listeners.view.forEach((act) => act(view.scale));
   }
-  const doing = (act) => (...values) => { act(...values); drawn(); };
+  const doing =
+    (act) =>
+    (...values) => {
+      act(...values);
+      drawn();
+    };
   const fitted = doing(() => fit(bounds(), size));
   const zoomed = doing((factor, at) => zoom(factor, at, least()));
   const panned = doing((dx, dy) => move(dx, dy, bounds(), size));
   const middle = () => ({ x: bounds().width / 2, y: bounds().height / 2 });
-  const frame = h("div", { class: "video-frame", role: "group", tabindex: "0", "aria-label": name, data: { keys: "", arrows: "" },
-    "aria-description": KEYS_HELP },
-  image, overlay, layer, zoomButtons({ zoom: zoomed, fit: fitted, middle }));
+  const frame = h(
+    "div",
+    {
+      class: "video-frame",
+      role: "group",
+      tabindex: "0",
+      "aria-label": name,
+      data: { keys: "", arrows: "" },
+      "aria-description": KEYS_HELP,
+    },
+    image,
+    overlay,
+    layer,
+    zoomButtons({ zoom: zoomed, fit: fitted, middle }),
+  );
 
-  mountPointer(frame, { pan: panned, zoom: zoomed, hover: (at) => listeners.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),
-    click: (at) => { if (isInside(toPlace(at))) listeners.click.forEach((act) => act(toPlace(at))); } });
-  mountKeys(frame, { closer: () => zoomed(STEP, middle()), further: () => zoomed(1 / STEP, middle()), fit: fitted, pan: panned });
-  new ResizeObserver(() => { if (view.fitted) fitted(); else drawn(); }).observe(frame);
+  mountPointer(frame, {
+    pan: panned,
+    zoom: zoomed,
+    hover: (at) => listeners.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),
+    click: (at) => {
+      if (isInside(toPlace(at))) listeners.click.forEach((act) => act(toPlace(at)));
+    },
+  });
+  mountKeys(frame, {
+    closer: () => zoomed(STEP, middle()),
+    further: () => zoomed(1 / STEP, middle()),
+    fit: fitted,
+    pan: panned,
+  });
+  new ResizeObserver(() => {
+    if (view.fitted) fitted();
+    else drawn();
+  }).observe(frame);
 
   return {
-    element: frame, drawing, layer, toScreen, toPlace, isInside,
-    get image() { return image; },
-    get size() { return size; },
+    element: frame,
+    drawing,
+    layer,
+    toScreen,
+    toPlace,
+    isInside,
+    get image() {
+      return image;
+    },
+    get size() {
+      return size;
+    },
     show: mountImage((next, nextSize) => {
       const changed = nextSize.width !== size.width || nextSize.height !== size.height;
       size = nextSize;
@@ -172,7 +244,10 @@ export function pictureView(name) {
       if (changed || view.fitted) fitted();
       else drawn();
     }),
-    onView: (act) => { listeners.view.push(act); act(view.scale); },
+    onView: (act) => {
+      listeners.view.push(act);
+      act(view.scale);
+    },
     onClick: (act) => listeners.click.push(act),
     onHover: (act) => listeners.hover.push(act),
     /** Brings a place into the frame where it is outside. */

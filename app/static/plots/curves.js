@@ -53,7 +53,9 @@ export function acrossOf(axis, times) {
 /** Path through the values in view; a missing value breaks the line. */
 export function pathOf(across, valueAt, scale) {
   const { first, last } = across;
-  return last - first > MOST_POINTS ? thinned(across, valueAt, scale) : plain(across, valueAt, scale, first, last);
+  return last - first > MOST_POINTS
+    ? thinned(across, valueAt, scale)
+    : plain(across, valueAt, scale, first, last);
 }
 
 function plain({ x }, valueAt, scale, first, last) {

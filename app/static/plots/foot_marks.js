@@ -2,13 +2,28 @@
 
 const CORNERS = [
   null,
-  [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
-  [[0, -1], [1, 0.9], [-1, 0.9]],
-  [[0, -1.15], [1.15, 0], [0, 1.15], [-1.15, 0]],
+  [
+    [-0.9, -0.9],
+    [0.9, -0.9],
+    [0.9, 0.9],
+    [-0.9, 0.9],
+  ],
+  [
+    [0, -1],
+    [1, 0.9],
+    [-1, 0.9],
+  ],
+  [
+    [0, -1.15],
+    [1.15, 0],
+    [0, 1.15],
+    [-1.15, 0],
+  ],
 ];
 
 /** Corners of a foot's mark around [x, y] with half width `r`; null for a disc. */
-const cornersAt = (foot, x, y, r) => CORNERS[foot % CORNERS.length]?.map(([dx, dy]) => [x + r * dx, y + r * dy]) ?? null;
+const cornersAt = (foot, x, y, r) =>
+  CORNERS[foot % CORNERS.length]?.map(([dx, dy]) => [x + r * dx, y + r * dy]) ?? null;
 
 /** A foot's mark as SVG text. */
 export function footMark(foot, x, y, fill, r = 4.5) {

@@ -4,7 +4,11 @@ import { acrossOf, pathOf } from "./curves.js";
 import { simulationOver, traceOf } from "../state/simulation.js";
 
 /** Strips with measured curves: the field of the run, and its values per foot in a row (0: one value for the body). */
-const OVER = { strokes: { of: "measured_mm", aFoot: 3 }, heights: { of: "foot_heights_mm", aFoot: 1 }, margin: { of: "margins_mm", aFoot: 0 } };
+const OVER = {
+  strokes: { of: "measured_mm", aFoot: 3 },
+  heights: { of: "foot_heights_mm", aFoot: 1 },
+  margin: { of: "margins_mm", aFoot: 0 },
+};
 
 /** Simulated curves have long dashes; measured ones are solid, planned ones dotted. */
 const SIMULATED_DASH = [8, 3];
@@ -41,14 +45,23 @@ export function runOver({ run, trace, selected, iterate }) {
 
 /** Simulated, then measured values for a strip, each with its name and its line style. */
 export function oversOf(state, strip) {
-  const [simulated, measured] = [measuredOf(traceOf(simulationOver(state)), strip), measuredOf(runOver(state), strip)];
-  return [simulated && { ...simulated, word: "simulated", dash: SIMULATED_DASH }, measured && { ...measured, word: "measured", dash: [] }].filter(Boolean);
+  const [simulated, measured] = [
+    measuredOf(traceOf(simulationOver(state)), strip),
+    measuredOf(runOver(state), strip),
+  ];
+  return [
+    simulated && { ...simulated, word: "simulated", dash: SIMULATED_DASH },
+    measured && { ...measured, word: "measured", dash: [] },
+  ].filter(Boolean);
 }
 
 /** Least and greatest measured value, mm. */
 export function measuredRange({ laps }) {
   const values = laps.flatMap(({ rows }) => rows.flat()).filter((value) => value !== null);
-  return values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
+  return values.reduce(
+    ([low, high], value) => [Math.min(low, value), Math.max(high, value)],
+    [Infinity, -Infinity],
+  );
 }
 
 /** One curve for each foot, as `stripCanvas` takes them; `scaleFor(foot)` returns the scale of a foot. */
@@ -56,10 +69,17 @@ export function measuredCurves({ laps, aFoot, dash }, axis, scaleFor) {
   const each = aFoot || 1;
   const feet = Math.ceil((laps[0]?.rows[0].length ?? 0) / each);
   return Array.from({ length: feet }, (_, foot) => ({
-    tone: aFoot ? foot + 1 : "fine", width: 1.5, alpha: 1, dash,
-    d: laps.flatMap(({ times, rows }) => {
-      const across = acrossOf(axis, times);
-      return Array.from({ length: each }, (__, one) => pathOf(across, (index) => rows[index][foot * each + one], scaleFor(foot)));
-    }).join(""),
+    tone: aFoot ? foot + 1 : "fine",
+    width: 1.5,
+    alpha: 1,
+    dash,
+    d: laps
+      .flatMap(({ times, rows }) => {
+        const across = acrossOf(axis, times);
+        return Array.from({ length: each }, (__, one) =>
+          pathOf(across, (index) => rows[index][foot * each + one], scaleFor(foot)),
+        );
+      })
+      .join(""),
   }));
 }

@@ -11,7 +11,16 @@ import { lineNames } from "./strip_picture.js";
 const SIZE = { width: 960, height: 260, left: 70, right: 90, top: 44, bottom: 44 };
 const PNG_SCALE = 2;
 /** Colours of the picture: light for print, also when the page is dark. */
-const INK = { text: "#161b22", quiet: "#5f6978", grid: "#e2e5ea", border: "#8a929f", fine: "#0b7470", limit: "#b3145f", wanted: "#7d5a00", grey: "#8a929f" };
+const INK = {
+  text: "#161b22",
+  quiet: "#5f6978",
+  grid: "#e2e5ea",
+  border: "#8a929f",
+  fine: "#0b7470",
+  limit: "#b3145f",
+  wanted: "#7d5a00",
+  grey: "#8a929f",
+};
 const SHEET = "#ffffff";
 /** The page's own colours of feet (see base.css). */
 const footColours = () => {
@@ -19,10 +28,15 @@ const footColours = () => {
   return (foot) => style.getPropertyValue(`--foot-${foot}`).trim();
 };
 
-const escaped = (text) => String(text).replace(/[&<>"]/g, (mark) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[mark]);
+const escaped = (text) =>
+  String(text).replace(
+    /[&<>"]/g,
+    (mark) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[mark],
+  );
 const text = (x, y, words, { anchor = "start", fill = INK.text, size = 12, weight = 400 } = {}) =>
   `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" fill="${fill}" font-size="${size}" font-weight="${weight}">${escaped(words)}</text>`;
-const rule = (x1, y1, x2, y2, stroke, dash = "") => `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" stroke="${stroke}"${dash && ` stroke-dasharray="${dash}"`}/>`;
+const rule = (x1, y1, x2, y2, stroke, dash = "") =>
+  `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" stroke="${stroke}"${dash && ` stroke-dasharray="${dash}"`}/>`;
 
 function axisLabels(axis, width, bottom) {
   const every = labelEvery(axis, width);
@@ -31,23 +45,35 @@ function axisLabels(axis, width, bottom) {
     const share = fractionAt(axis, count * every);
     if (share < -1e-9 || share > 1 + 1e-9) continue;
     const x = SIZE.left + share * width;
-    labels.push(rule(x, bottom, x, bottom + 4, INK.border), text(x, bottom + 17, Math.round(count * every * 10) / 10, { anchor: "middle", fill: INK.quiet, size: 11 }));
+    labels.push(
+      rule(x, bottom, x, bottom + 4, INK.border),
+      text(x, bottom + 17, Math.round(count * every * 10) / 10, {
+        anchor: "middle",
+        fill: INK.quiet,
+        size: 11,
+      }),
+    );
   }
   return labels;
 }
 
 /** The curves as a drawing that is stretched over the plot; lines keep their thickness. */
 function curveLayer({ curves }, width, height, colour) {
-  const path = ({ d, tone, width: line, dash, offset = 0 }) => d && `<path d="${d}" fill="none" stroke="${colour(tone)}" stroke-width="${line}" vector-effect="non-scaling-stroke"${dash?.length ? ` stroke-dasharray="${dash.join(" ")}" stroke-dashoffset="${offset}"` : ""}/>`;
+  const path = ({ d, tone, width: line, dash, offset = 0 }) =>
+    d
+    && `<path d="${d}" fill="none" stroke="${colour(tone)}" stroke-width="${line}" vector-effect="non-scaling-stroke"${dash?.length ? ` stroke-dasharray="${dash.join(" ")}" stroke-dashoffset="${offset}"` : ""}/>`;
   return `<svg x="${SIZE.left}" y="${SIZE.top}" width="${width}" height="${height}" viewBox="0 0 ${WIDTH} ${HEIGHT}" preserveAspectRatio="none">${curves.map(path).join("")}</svg>`;
 }
 
 function legend(names) {
   let x = SIZE.width - SIZE.right;
-  return names.toReversed().map(({ word, dash }) => {
-    x -= word.length * 6.6 + 44;
-    return rule(x, 26, x + 26, 26, INK.text, dash.join(" ")) + text(x + 32, 30, word, { fill: INK.quiet });
-  }).join("");
+  return names
+    .toReversed()
+    .map(({ word, dash }) => {
+      x -= word.length * 6.6 + 44;
+      return rule(x, 26, x + 26, 26, INK.text, dash.join(" ")) + text(x + 32, 30, word, { fill: INK.quiet });
+    })
+    .join("");
 }
 
 /** The plot as SVG text. */
@@ -59,18 +85,51 @@ export function plotSvg({ kind, picture, axis, overs, grey, isUnder, gait, feet 
   const footColour = footColours();
   const colour = (tone) => INK[tone] ?? footColour(tone);
   const { drawing } = picture;
-  const marks = picture.bands.length > 1
-    ? picture.bands.map(({ foot: one, top: from, bottom: to }) => footMark(one, left + 8, place((from + to) / 2), footColour(one + 1)) + text(left + 16, place((from + to) / 2) + 4, one + 1, { size: 11 }))
-    : picture.peaks.map(({ foot: one, x, y }) => footMark(one, left + (x / WIDTH) * width, place(y) - 8, footColour(one + 1)));
-  const key = feet > 1 && kind.key !== "margin" ? Array.from({ length: feet }, (_, one) => footMark(one, left + 12 + one * 34, bottom + 34, footColour(one + 1)) + text(left + 21 + one * 34, bottom + 38, one + 1, { size: 11 })) : [];
+  const marks =
+    picture.bands.length > 1
+      ? picture.bands.map(
+          ({ foot: one, top: from, bottom: to }) =>
+            footMark(one, left + 8, place((from + to) / 2), footColour(one + 1))
+            + text(left + 16, place((from + to) / 2) + 4, one + 1, { size: 11 }),
+        )
+      : picture.peaks.map(({ foot: one, x, y }) =>
+          footMark(one, left + (x / WIDTH) * width, place(y) - 8, footColour(one + 1)),
+        );
+  const key =
+    feet > 1 && kind.key !== "margin"
+      ? Array.from(
+          { length: feet },
+          (_, one) =>
+            footMark(one, left + 12 + one * 34, bottom + 34, footColour(one + 1))
+            + text(left + 21 + one * 34, bottom + 38, one + 1, { size: 11 }),
+        )
+      : [];
   const parts = [
-    text(left, 20, `${kind.title}`, { weight: 600, size: 14 }), text(left, 36, gait, { fill: INK.quiet }), legend(lineNames(grey, overs, isUnder)),
-    ...drawing.grid.map((y) => rule(left, place(y), left + width, place(y), INK.grid)), ...drawing.borders.map((y) => rule(left, place(y), left + width, place(y), INK.border)),
-    ...drawing.lines.map(({ y, kind: name }) => rule(left, place(y), left + width, place(y), INK[name], "4 3")),
-    ...picture.ticks.map(({ value, y }) => text(left - 6, place(y) + 4, Number(value.toFixed(3)), { anchor: "end", fill: INK.quiet, size: 11 })),
-    ...picture.named.map(({ value, name, kind: tone, y }) => text(left + width + 6, Math.min(Math.max(place(y) + 4, top + 8), bottom), `${name} ${Number(value.toFixed(2))}`, { fill: INK[tone], size: 11 })),
-    curveLayer(drawing, width, height, colour), ...marks, rule(left, bottom, left + width, bottom, INK.border), ...axisLabels(axis, width, bottom),
-    text(left + width, bottom + 36, "plan, s", { anchor: "end", fill: INK.quiet, size: 11 }), ...key,
+    text(left, 20, `${kind.title}`, { weight: 600, size: 14 }),
+    text(left, 36, gait, { fill: INK.quiet }),
+    legend(lineNames(grey, overs, isUnder)),
+    ...drawing.grid.map((y) => rule(left, place(y), left + width, place(y), INK.grid)),
+    ...drawing.borders.map((y) => rule(left, place(y), left + width, place(y), INK.border)),
+    ...drawing.lines.map(({ y, kind: name }) =>
+      rule(left, place(y), left + width, place(y), INK[name], "4 3"),
+    ),
+    ...picture.ticks.map(({ value, y }) =>
+      text(left - 6, place(y) + 4, Number(value.toFixed(3)), { anchor: "end", fill: INK.quiet, size: 11 }),
+    ),
+    ...picture.named.map(({ value, name, kind: tone, y }) =>
+      text(
+        left + width + 6,
+        Math.min(Math.max(place(y) + 4, top + 8), bottom),
+        `${name} ${Number(value.toFixed(2))}`,
+        { fill: INK[tone], size: 11 },
+      ),
+    ),
+    curveLayer(drawing, width, height, colour),
+    ...marks,
+    rule(left, bottom, left + width, bottom, INK.border),
+    ...axisLabels(axis, width, bottom),
+    text(left + width, bottom + 36, "plan, s", { anchor: "end", fill: INK.quiet, size: 11 }),
+    ...key,
   ];
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${whole}" height="${bottom + foot}" viewBox="0 0 ${whole} ${bottom + foot}" font-family="system-ui, sans-serif"><title>${escaped(`${kind.name} of ${gait}`)}</title><rect width="100%" height="100%" fill="${SHEET}"/>${parts.join("")}</svg>`;
 }
@@ -82,26 +141,50 @@ async function png(source) {
     const image = new Image();
     image.src = address;
     await image.decode();
-    const canvas = h("canvas", { width: image.naturalWidth * PNG_SCALE, height: image.naturalHeight * PNG_SCALE });
+    const canvas = h("canvas", {
+      width: image.naturalWidth * PNG_SCALE,
+      height: image.naturalHeight * PNG_SCALE,
+    });
     canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
-    return await new Promise((done) => { canvas.toBlob(done, "image/png"); });
+    return await new Promise((done) => {
+      canvas.toBlob(done, "image/png");
+    });
   } finally {
     URL.revokeObjectURL(address);
   }
 }
 
-const columnName = ({ unit }, { foot, motor }) => [foot === null ? "value" : `foot ${foot + 1}`, motor === null ? "" : `motor ${motor + 1}`].filter(Boolean).join(" ") + `, ${unit}`;
-const number = (value) => ((value ?? null) === null || !Number.isFinite(value) ? "" : String(Number(value.toFixed(6))));
+const columnName = ({ unit }, { foot, motor }) =>
+  [foot === null ? "value" : `foot ${foot + 1}`, motor === null ? "" : `motor ${motor + 1}`]
+    .filter(Boolean)
+    .join(" ") + `, ${unit}`;
+const number = (value) =>
+  (value ?? null) === null || !Number.isFinite(value) ? "" : String(Number(value.toFixed(6)));
 
 /** Every value of the strip, one row for each sample: the planned values, then the simulated and the measured ones. */
 export function plotCsv({ kind, content, plan, overs }) {
   const { series } = content;
-  const lines = [["curve", "plan_s", "robot_s", ...series.map((one) => columnName(kind, one))].map((name) => (name.includes(",") ? `"${name}"` : name)).join(",")];
-  plan.times.forEach((time, index) => lines.push(["planned", number(time), number(robotSecondsAt(plan, time)), ...series.map(({ valueAt }) => number(valueAt(index)))].join(",")));
+  const lines = [
+    ["curve", "plan_s", "robot_s", ...series.map((one) => columnName(kind, one))]
+      .map((name) => (name.includes(",") ? `"${name}"` : name))
+      .join(","),
+  ];
+  plan.times.forEach((time, index) =>
+    lines.push(
+      [
+        "planned",
+        number(time),
+        number(robotSecondsAt(plan, time)),
+        ...series.map(({ valueAt }) => number(valueAt(index))),
+      ].join(","),
+    ),
+  );
   for (const { word, laps, aFoot } of overs) {
-    const at = ({ foot, motor }) => (aFoot === MOTORS ? foot * MOTORS + motor : foot ?? 0);
+    const at = ({ foot, motor }) => (aFoot === MOTORS ? foot * MOTORS + motor : (foot ?? 0));
     for (const { times, rows } of laps) {
-      times.forEach((time, index) => lines.push([word, number(time), "", ...series.map((one) => number(rows[index][at(one)]))].join(",")));
+      times.forEach((time, index) =>
+        lines.push([word, number(time), "", ...series.map((one) => number(rows[index][at(one)]))].join(",")),
+      );
     }
   }
   return `${lines.join("\n")}\n`;
@@ -115,7 +198,10 @@ const FORMS = {
 
 async function save(form, drawn) {
   const address = URL.createObjectURL(await FORMS[form](drawn));
-  h("a", { href: address, download: `${drawn.gait} ${drawn.kind.name.toLowerCase()}.${form.toLowerCase()}` }).click();
+  h("a", {
+    href: address,
+    download: `${drawn.gait} ${drawn.kind.name.toLowerCase()}.${form.toLowerCase()}`,
+  }).click();
   // By then the download has begun.
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
@@ -127,8 +213,22 @@ export function saveButtons(kind, drawn) {
     PNG: "Saves the plot as a PNG picture, for slides",
     CSV: "Saves all values of the plot as a CSV file, one row per sample",
   };
-  return h("div", { class: "plot-save", role: "group", "aria-label": `Save ${kind.name}` }, ...Object.keys(FORMS).map((form) => h("button", {
-    class: "link", text: form, "aria-label": `Save ${kind.name} as ${form}`, title: help[form],
-    on: { click: () => { const now = drawn(); if (now) save(form, now); } },
-  })));
+  return h(
+    "div",
+    { class: "plot-save", role: "group", "aria-label": `Save ${kind.name}` },
+    ...Object.keys(FORMS).map((form) =>
+      h("button", {
+        class: "link",
+        text: form,
+        "aria-label": `Save ${kind.name} as ${form}`,
+        title: help[form],
+        on: {
+          click: () => {
+            const now = drawn();
+            if (now) save(form, now);
+          },
+        },
+      }),
+    ),
+  );
 }

@@ -32,8 +32,10 @@ const tickText = (value) => String(Number(value.toFixed(2)));
 function namedTexts(named) {
   const sorted = named.toSorted((a, b) => a.y - b.y);
   const places = sorted.map(({ y }) => y);
-  for (let at = 0; at < places.length; at += 1) places[at] = Math.max(places[at], at ? places[at - 1] + APART : APART / 2);
-  for (let at = places.length - 1; at >= 0; at -= 1) places[at] = Math.min(places[at], at + 1 < places.length ? places[at + 1] - APART : 100 - APART / 2);
+  for (let at = 0; at < places.length; at += 1)
+    places[at] = Math.max(places[at], at ? places[at - 1] + APART : APART / 2);
+  for (let at = places.length - 1; at >= 0; at -= 1)
+    places[at] = Math.min(places[at], at + 1 < places.length ? places[at + 1] - APART : 100 - APART / 2);
   return sorted.map(({ value, name, kind, away }, at) => {
     const arrow = away ? h("span", { "aria-hidden": "true", text: away === "up" ? " ↑" : " ↓" }) : null;
     return atHeight(h("span", { data: { kind } }, `${name} ${tickText(value)}`, arrow), places[at]);
@@ -51,32 +53,75 @@ function keep(element, key, build) {
 function draw(row, content, view) {
   const picture = stripPicture(content, view);
   const { named, ticks, range, bands } = picture;
-  row.strip.style.setProperty("--lanes", bands.length > 1 ? `${bands.length * laneHeight(bands.length)}px` : "0px");
+  row.strip.style.setProperty(
+    "--lanes",
+    bands.length > 1 ? `${bands.length * laneHeight(bands.length)}px` : "0px",
+  );
   row.strip.toggleAttribute("data-empty", false);
   row.canvas.show(picture.drawing);
-  keep(row.named, named.map(({ name, value, y, away }) => `${name} ${tickText(value)} ${y.toFixed(1)} ${away}`).join(), () => namedTexts(named));
-  keep(row.ticks, ticks.map(({ value, y }) => `${tickText(value)} ${y.toFixed(1)}`).join(), () => ticks.map(({ value, y }) => atHeight(h("span", { text: tickText(value) }), y)));
+  keep(
+    row.named,
+    named.map(({ name, value, y, away }) => `${name} ${tickText(value)} ${y.toFixed(1)} ${away}`).join(),
+    () => namedTexts(named),
+  );
+  keep(row.ticks, ticks.map(({ value, y }) => `${tickText(value)} ${y.toFixed(1)}`).join(), () =>
+    ticks.map(({ value, y }) => atHeight(h("span", { text: tickText(value) }), y)),
+  );
   const limits = [content.low ?? null, content.high ?? null].filter((value) => value !== null);
-  setAttribute(row.strip, "aria-label", [view.grey && `${GREY[view.grey].stage} `, summary(row.kind, range, limits)].filter(Boolean).join(""));
+  setAttribute(
+    row.strip,
+    "aria-label",
+    [view.grey && `${GREY[view.grey].stage} `, summary(row.kind, range, limits)].filter(Boolean).join(""),
+  );
   return { content, picture, ...view };
 }
 
 function summary({ name, unit, help }, [least, most], limits) {
   const span = least <= most ? `${fixed(least)} to ${fixed(most)} ${unit}` : "not known";
-  const held = limits.length ? `, ${limits.length > 1 ? "limits" : "limit"} ${limits.map((value) => fixed(value)).join(" and ")}` : "";
+  const held = limits.length
+    ? `, ${limits.length > 1 ? "limits" : "limit"} ${limits.map((value) => fixed(value)).join(" and ")}`
+    : "";
   return `${name}: ${span}${held}. ${help}.`;
 }
 
 function buildRow(kind, store) {
-  const row = { kind, value: h("span", { class: "value" }), ticks: h("div", { class: "plot-ticks", "aria-hidden": "true" }), drawn: null };
+  const row = {
+    kind,
+    value: h("span", { class: "value" }),
+    ticks: h("div", { class: "plot-ticks", "aria-hidden": "true" }),
+    drawn: null,
+  };
   row.strip = h("div", { class: "strip", role: "img", "aria-label": kind.help, data: { strip: kind.key } });
-  [row.canvas, row.named, row.empty] = [stripCanvas(row.strip), h("div", { class: "plot-named" }), h("div", { class: "empty" })];
+  [row.canvas, row.named, row.empty] = [
+    stripCanvas(row.strip),
+    h("div", { class: "plot-named" }),
+    h("div", { class: "empty" }),
+  ];
   row.strip.append(row.canvas.element, row.named, row.empty);
   const drawn = () => {
     const { view } = store.state;
-    return row.drawn && { kind, ...row.drawn, plan: drawnPlan(store.state), gait: view.document.name ?? "gait", feet: view.document.timeline.feet.length };
+    return (
+      row.drawn && {
+        kind,
+        ...row.drawn,
+        plan: drawnPlan(store.state),
+        gait: view.document.name ?? "gait",
+        feet: view.document.timeline.feet.length,
+      }
+    );
   };
-  row.label = h("div", { class: "plot-label" }, h("div", { class: "plot-words" }, h("span", { class: "name", text: kind.title, title: kind.help }), row.value, saveButtons(kind, drawn)), row.ticks);
+  row.label = h(
+    "div",
+    { class: "plot-label" },
+    h(
+      "div",
+      { class: "plot-words" },
+      h("span", { class: "name", text: kind.title, title: kind.help }),
+      row.value,
+      saveButtons(kind, drawn),
+    ),
+    row.ticks,
+  );
   return row;
 }
 
@@ -99,8 +144,20 @@ function emptyWords(state, plan) {
 /** Shows the legend of all plots: a name for each line style. A preview that has none keeps its row, so that nothing moves. */
 function showLegend(key, names, isPreview = false) {
   if (names.length > 0 || !isPreview) key.hidden = names.length === 0;
-  keep(key, names.map(({ word, dash }) => `${word} ${dash}`).join(), () => names.map(({ word, dash }) => h("span", {},
-    svg("svg", { width: 24, height: 8, "aria-hidden": "true" }, svg("line", { x1: 0, x2: 24, y1: 4, y2: 4, "stroke-dasharray": dash.join(" ") })), word)));
+  keep(key, names.map(({ word, dash }) => `${word} ${dash}`).join(), () =>
+    names.map(({ word, dash }) =>
+      h(
+        "span",
+        {},
+        svg(
+          "svg",
+          { width: 24, height: 8, "aria-hidden": "true" },
+          svg("line", { x1: 0, x2: 24, y1: 4, y2: 4, "stroke-dasharray": dash.join(" ") }),
+        ),
+        word,
+      ),
+    ),
+  );
 }
 
 function render(rows, key, state) {
@@ -115,9 +172,19 @@ function render(rows, key, state) {
   const axis = axisOf(state);
   const visible = rows.filter(({ strip }) => !strip.hidden);
   const overs = new Map(visible.map((row) => [row, oversOf(state, row.kind.key)]));
-  const most = [...overs.values()].reduce((longest, one) => (one.length > longest.length ? one : longest), []);
+  const most = [...overs.values()].reduce(
+    (longest, one) => (one.length > longest.length ? one : longest),
+    [],
+  );
   // One legend is for all strips, so the plan has the same line in each of them.
-  const view = { axis, across: acrossOf(axis, plan.times), count: plan.times.length, rules: rulesOf(axis, plan), grey, isUnder: most.length > 0 };
+  const view = {
+    axis,
+    across: acrossOf(axis, plan.times),
+    count: plan.times.length,
+    rules: rulesOf(axis, plan),
+    grey,
+    isUnder: most.length > 0,
+  };
   const document = previewedDocument(state);
   for (const row of visible) {
     const content = row.kind.of(plan, document);
@@ -132,9 +199,13 @@ function render(rows, key, state) {
 
 /** The series nearest to a height in the strip (0 to 1) at a sample, or null. */
 function nearest({ content, picture }, index, height) {
-  const near = content.series.map((series) => ({ series, value: series.valueAt(index) })).filter(({ value }) => value !== null && Number.isFinite(value));
+  const near = content.series
+    .map((series) => ({ series, value: series.valueAt(index) }))
+    .filter(({ value }) => value !== null && Number.isFinite(value));
   const away = ({ series, value }) => Math.abs(picture.scaleFor(series.foot)(value) / HEIGHT - height);
-  return near.reduce((best, one) => (best === null || away(one) < away(best) ? one : best), null)?.series ?? null;
+  return (
+    near.reduce((best, one) => (best === null || away(one) < away(best) ? one : best), null)?.series ?? null
+  );
 }
 
 /** Shows the values of all feet at the time under the pointer. */
@@ -160,8 +231,12 @@ function mountHover(store, rows) {
     line.style.transform = `translateX(${box.left - around.left + fractionAt(axis, time) * box.width}px)`;
     const [values, grey] = [valuesAt(plan, index), greyOf(state)];
     card.show(event, {
-      time, robotTime: robotSecondsAt(plan, time), roles: state.view.roles ?? [], ...values,
-      nearest: nearest(row.drawn, index, (event.clientY - box.top) / box.height), note: grey ? GREY[grey].value : "",
+      time,
+      robotTime: robotSecondsAt(plan, time),
+      roles: state.view.roles ?? [],
+      ...values,
+      nearest: nearest(row.drawn, index, (event.clientY - box.top) / box.height),
+      note: grey ? GREY[grey].value : "",
     });
     return undefined;
   }
@@ -173,9 +248,14 @@ function mountHover(store, rows) {
 /** The menu in the corner of the chart that chooses the strips; the choice is remembered. */
 function mountChoice(rows, redraw) {
   const choice = recalled("plots", Object.fromEntries(STRIPS.map(({ key, shown }) => [key, shown])));
-  const apply = () => rows.forEach(({ kind, strip, label }) => { strip.hidden = label.hidden = !choice[kind.key]; });
+  const apply = () =>
+    rows.forEach(({ kind, strip, label }) => {
+      strip.hidden = label.hidden = !choice[kind.key];
+    });
   const menu = checkMenu({
-    id: "plots-menu", name: "Plots", help: "Choose the plots that are shown under the timeline",
+    id: "plots-menu",
+    name: "Plots",
+    help: "Choose the plots that are shown under the timeline",
     entries: STRIPS.map(({ key, name, help }) => ({ key, text: name, help, checked: choice[key] })),
     onChange(key, checked) {
       choice[key] = checked;
@@ -195,7 +275,15 @@ export function mountPlots(store) {
   byId("plots").append(key, ...rows.flatMap(({ label, strip }) => [label, strip]));
   mountChoice(rows, () => render(rows, key, store.state));
   mountHover(store, rows);
-  const drawn = (state) => [drawnPlan(state), greyOf(state), isRefusedDrawing(state), previewedDocument(state)?.options, axisKey(state), runOver(state), simulationOver(state)];
+  const drawn = (state) => [
+    drawnPlan(state),
+    greyOf(state),
+    isRefusedDrawing(state),
+    previewedDocument(state)?.options,
+    axisKey(state),
+    runOver(state),
+    simulationOver(state),
+  ];
   store.watch(drawn, (state) => render(rows, key, state));
 
   return (time) => {

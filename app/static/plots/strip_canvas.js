@@ -8,13 +8,25 @@ import { paintFootMark } from "./foot_marks.js";
 import { h } from "../lib/dom.js";
 
 const FEET = 12;
-const NAMES = { fine: "--good", broken: "--bad", rule: "--quiet", grey: "--edge", grid: "--line", text: "--ink", border: "--line-2", limit: "--bad", wanted: "--caution" };
+const NAMES = {
+  fine: "--good",
+  broken: "--bad",
+  rule: "--quiet",
+  grey: "--edge",
+  grid: "--line",
+  text: "--ink",
+  border: "--line-2",
+  limit: "--bad",
+  wanted: "--caution",
+};
 const LINE_DASHES = { limit: [4, 3], wanted: [2, 3] };
 const dark = matchMedia("(prefers-color-scheme: dark)");
 let palette = null;
 let font = null;
 const fontNow = () => (font ??= getComputedStyle(document.body).fontFamily);
-dark.addEventListener("change", () => { palette = null; });
+dark.addEventListener("change", () => {
+  palette = null;
+});
 
 function coloursNow() {
   if (palette) return palette;
@@ -77,7 +89,9 @@ function paintMarks(pen, colours, { width, height }, ratio, { marks = [], isGrey
   const { half, gap, edge, line } = MARK;
   pen.globalAlpha = 1;
   for (const { feet, x, y } of marks) {
-    const parts = feet.map((foot) => sprite(foot, isGrey ? colours.grey : colours[foot + 1], colours.text, ratio));
+    const parts = feet.map((foot) =>
+      sprite(foot, isGrey ? colours.grey : colours[foot + 1], colours.text, ratio),
+    );
     const wide = parts.reduce((sum, part) => sum + part.width + gap, -gap) + 2 * edge;
     const middle = (y * height) / HEIGHT;
     const top = Math.round(x === null ? middle - line / 2 : Math.max(middle - half - 1 - line / 2, 1));
@@ -138,7 +152,7 @@ function paintBeyond(pen, colours, { width, height }, paths, clips) {
 
 /**
  * Builds a strip's canvas; it is painted again when the strip's size or the theme changes.
- * @returns {{element: HTMLCanvasElement, show: (drawing: object) => void}} a drawing has
+ * @returns {{element: HTMLCanvasElement, show: (drawing: Record<string, any>) => void}} a drawing has
  *   `bands` of missing values {x, width}; `rules`, vertical lines {x, from}, `from` a share of the height from the top;
  *   `grid` and `borders`, heights of level lines; `lines` {y, kind ("limit", "wanted")};
  *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash, offset};
@@ -149,7 +163,9 @@ export function stripCanvas(strip) {
   const element = h("canvas", { "aria-hidden": "true" });
   let size = null;
   let drawing = {};
-  const again = () => { if (size?.width > 0 && size.height > 0) paint(element, size, drawing); };
+  const again = () => {
+    if (size?.width > 0 && size.height > 0) paint(element, size, drawing);
+  };
   new ResizeObserver(([{ contentRect }]) => {
     size = { width: contentRect.width, height: contentRect.height };
     again();

@@ -32,10 +32,17 @@ function bandsOf({ lanes, series }) {
 /** Range of the scale: all values, those that the strip always shows, and limits that are not far. */
 function spanOf(content, overs, count) {
   const ranges = [rangeOf(content.series, count), ...overs.map(measuredRange)];
-  const range = [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, greatest]) => greatest))];
-  const always = [content.floor, content.wanted, content.most ?? 0].filter((value) => isKnown(value) && !content.lanes);
+  const range = [
+    Math.min(...ranges.map(([least]) => least)),
+    Math.max(...ranges.map(([, greatest]) => greatest)),
+  ];
+  const always = [content.floor, content.wanted, content.most ?? 0].filter(
+    (value) => isKnown(value) && !content.lanes,
+  );
   const [low, high] = [Math.min(range[0], ...always), Math.max(range[1], ...always)];
-  const near = [content.low, content.high].filter((limit) => isKnown(limit) && limit > low - FAR * (high - low) && limit < high + FAR * (high - low));
+  const near = [content.low, content.high].filter(
+    (limit) => isKnown(limit) && limit > low - FAR * (high - low) && limit < high + FAR * (high - low),
+  );
   return { range, low: Math.min(low, ...near), high: Math.max(high, ...near) };
 }
 
@@ -43,10 +50,12 @@ function spanOf(content, overs, count) {
 function beyond({ low = null, high = null }, scaleFor, bands, [least, most]) {
   const over = high !== null && most > high + ROUNDING;
   const under = low !== null && least < low - ROUNDING;
-  return bands.flatMap(({ foot, top, bottom }) => [
-    over && { y: top, height: Math.max(scaleFor(foot)(high) - top, 0) },
-    under && { y: scaleFor(foot)(low), height: Math.max(bottom - scaleFor(foot)(low), 0) },
-  ]).filter(Boolean);
+  return bands
+    .flatMap(({ foot, top, bottom }) => [
+      over && { y: top, height: Math.max(scaleFor(foot)(high) - top, 0) },
+      under && { y: scaleFor(foot)(low), height: Math.max(bottom - scaleFor(foot)(low), 0) },
+    ])
+    .filter(Boolean);
 }
 
 /** Bands of samples with a missing value, such as a stroke for which the rod is too short. */
@@ -87,7 +96,9 @@ function companionsOf(series, { first, last }, tolerance) {
     for (let other = one + 1; other < series.length; other += 1) {
       if (groups[one] !== groups[other] && meet(series[one], series[other])) {
         const joined = [...groups[one], ...groups[other]].sort((a, b) => a - b);
-        joined.forEach((at) => { groups[at] = joined; });
+        joined.forEach((at) => {
+          groups[at] = joined;
+        });
       }
     }
   }
@@ -98,13 +109,24 @@ function companionsOf(series, { first, last }, tolerance) {
 function plannedCurves(content, across, scaleFor, { isUnder, grey, count, span }) {
   const { series, lanes, rises } = content;
   const values = series.map((one) => (rises ? risen(one, count) : one.valueAt));
-  const groups = rises && !isUnder ? companionsOf(values, across, (span.high - span.low) * 0.01) : series.map((_, at) => [at]);
+  const groups =
+    rises && !isUnder
+      ? companionsOf(values, across, (span.high - span.low) * 0.01)
+      : series.map((_, at) => [at]);
   return series.map(({ foot, motor }, at) => {
     const [group, turn] = [groups[at], groups[at].indexOf(at)];
-    const shared = group.length > 1 ? { dash: [TURN, TURN * (group.length - 1)], offset: -TURN * turn } : { dash: [], offset: 0 };
+    const shared =
+      group.length > 1
+        ? { dash: [TURN, TURN * (group.length - 1)], offset: -TURN * turn }
+        : { dash: [], offset: 0 };
     return {
-      d: pathOf(across, values[at], scaleFor(foot)), foot, motor, tone: grey ? "grey" : foot === null ? "fine" : foot + 1,
-      width: lanes ? MOTOR_WIDTHS[motor] : 1.5, alpha: 1, ...(isUnder ? { dash: DOTTED, offset: 0 } : shared),
+      d: pathOf(across, values[at], scaleFor(foot)),
+      foot,
+      motor,
+      tone: grey ? "grey" : foot === null ? "fine" : foot + 1,
+      width: lanes ? MOTOR_WIDTHS[motor] : 1.5,
+      alpha: 1,
+      ...(isUnder ? { dash: DOTTED, offset: 0 } : shared),
     };
   });
 }
@@ -115,7 +137,7 @@ function peaksOf({ series }, across, scaleFor) {
     const peaks = [];
     let top = null;
     for (let index = across.first; index <= across.last + 1; index += 1) {
-      const value = index <= across.last ? valueAt(index) ?? 0 : 0;
+      const value = index <= across.last ? (valueAt(index) ?? 0) : 0;
       if (value > 0.5) top = top === null || value > valueAt(top) ? index : top;
       else if (top !== null) {
         peaks.push({ foot, x: across.x[top], y: scaleFor(foot)(valueAt(top)) });
@@ -146,16 +168,22 @@ export function rulesOf(axis, { poses, times }) {
 
 /** Limits and the requested value, each with its name; `away` is the direction of one outside the scale, else null. */
 function namedValues({ low = null, high = null, wanted = null }, { range, low: bottom, high: top }) {
-  const named = [{ value: high, name: "limit", kind: "limit" }, { value: wanted, name: "asked", kind: "wanted" }, { value: low, name: "limit", kind: "limit" }];
-  return named.filter(({ value }) => isKnown(value) && range[0] <= range[1]).map((one) => ({ ...one, away: one.value > top ? "up" : one.value < bottom ? "down" : null }));
+  const named = [
+    { value: high, name: "limit", kind: "limit" },
+    { value: wanted, name: "asked", kind: "wanted" },
+    { value: low, name: "limit", kind: "limit" },
+  ];
+  return named
+    .filter(({ value }) => isKnown(value) && range[0] <= range[1])
+    .map((one) => ({ ...one, away: one.value > top ? "up" : one.value < bottom ? "down" : null }));
 }
 
 /**
  * Computes a strip's plot.
- * @param {object} content of a strip's `of` (see strips.js)
- * @param {{axis: object, across: object, count: number, overs: object[], rules: object[], grey: string|null, isUnder: boolean}} view
+ * @param {Record<string, any>} content of a strip's `of` (see strips.js)
+ * @param {{axis: Record<string, any>, across: Record<string, any>, count: number, overs: Record<string, any>[], rules: Record<string, any>[], grey: string|null, isUnder: boolean}} view
  *   `isUnder`: whether the plan is drawn as the line under measured or simulated ones, here or in another strip
- * @returns {object} `scaleFor(foot)`, `range` of all values, `bands` of the feet {foot, top, bottom}, `ticks` {value, y},
+ * @returns {Record<string, any>} `scaleFor(foot)`, `range` of all values, `bands` of the feet {foot, top, bottom}, `ticks` {value, y},
  *   `named` values, `peaks` {foot, x, y}, and `drawing` as `stripCanvas` takes it
  */
 export function stripPicture(content, { axis, across, count, overs, rules, grey, isUnder }) {
@@ -166,22 +194,41 @@ export function stripPicture(content, { axis, across, count, overs, rules, grey,
     if (!scales.has(foot)) scales.set(foot, scaleOf(span.low, span.high, bandOf(foot)));
     return scales.get(foot);
   };
-  const feet = content.lanes ? [...new Set(content.series.map(({ foot }) => foot))] : [content.series[0]?.foot ?? null];
+  const feet = content.lanes
+    ? [...new Set(content.series.map(({ foot }) => foot))]
+    : [content.series[0]?.foot ?? null];
   const bands = feet.map((foot) => ({ foot, ...bandOf(foot) }));
   const values = ticksOf(span.low, span.high, content.lanes ? 2 : MOST_TICKS);
   const named = namedValues(content, span);
   const peaks = content.rises ? peaksOf(content, across, scaleFor) : [];
   return {
-    scaleFor, range: span.range, bands, peaks,
+    scaleFor,
+    range: span.range,
+    bands,
+    peaks,
     ticks: values.map((value) => ({ value, y: scaleFor(bands[0].foot)(value) })),
-    named: named.map((one) => ({ ...one, y: one.away === "up" ? 0 : one.away === "down" ? HEIGHT : scaleFor(bands[0].foot)(one.value) })),
+    named: named.map((one) => ({
+      ...one,
+      y: one.away === "up" ? 0 : one.away === "down" ? HEIGHT : scaleFor(bands[0].foot)(one.value),
+    })),
     drawing: {
-      bands: missing(content, across), rules,
-      grid: bands.flatMap(({ foot }) => values.map((value) => scaleFor(foot)(value))), borders: bands.slice(1).map(({ top }) => top),
-      lines: named.filter(({ away }) => !away).flatMap(({ value, kind }) => bands.map(({ foot }) => ({ y: scaleFor(foot)(value), kind }))),
-      curves: [...plannedCurves(content, across, scaleFor, { isUnder, grey, count, span }), ...overs.flatMap((over) => measuredCurves(over, axis, scaleFor))],
-      clips: grey === "worked" ? [] : beyond(content, scaleFor, bands, span.range), isGrey: grey !== null,
-      marks: bands.length > 1 ? bands.map(({ foot, top, bottom }) => ({ feet: [foot], x: null, y: (top + bottom) / 2 })) : peakMarks(peaks),
+      bands: missing(content, across),
+      rules,
+      grid: bands.flatMap(({ foot }) => values.map((value) => scaleFor(foot)(value))),
+      borders: bands.slice(1).map(({ top }) => top),
+      lines: named
+        .filter(({ away }) => !away)
+        .flatMap(({ value, kind }) => bands.map(({ foot }) => ({ y: scaleFor(foot)(value), kind }))),
+      curves: [
+        ...plannedCurves(content, across, scaleFor, { isUnder, grey, count, span }),
+        ...overs.flatMap((over) => measuredCurves(over, axis, scaleFor)),
+      ],
+      clips: grey === "worked" ? [] : beyond(content, scaleFor, bands, span.range),
+      isGrey: grey !== null,
+      marks:
+        bands.length > 1
+          ? bands.map(({ foot, top, bottom }) => ({ feet: [foot], x: null, y: (top + bottom) / 2 }))
+          : peakMarks(peaks),
     },
   };
 }

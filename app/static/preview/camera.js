@@ -21,7 +21,11 @@ const [LEAST_REACH, AROUND] = [0.053, 0.027];
 const MOVED = 0.01;
 
 const LEVEL = 0.06;
-const around = (front, turn) => [Math.cos(((front + turn) * Math.PI) / 180), Math.sin(((front + turn) * Math.PI) / 180), LEVEL];
+const around = (front, turn) => [
+  Math.cos(((front + turn) * Math.PI) / 180),
+  Math.sin(((front + turn) * Math.PI) / 180),
+  LEVEL,
+];
 
 /** From the robot to the camera, by the name of the view and the way that the robot looks, degrees. */
 const DIRECTIONS = {
@@ -45,14 +49,18 @@ const apart = (a, b) => Math.hypot(...a.map((value, axis) => value - b[axis]));
 export function wayOf(client, overlay, nodes, bodyName) {
   const body = client.position(bodyName) ?? [0, 0, 0];
   const places = [...(overlay?.com ?? []), body];
-  const ends = [0, 1].map((axis) => [Math.min(...places.map((at) => at[axis])), Math.max(...places.map((at) => at[axis]))]);
+  const ends = [0, 1].map((axis) => [
+    Math.min(...places.map((at) => at[axis])),
+    Math.max(...places.map((at) => at[axis])),
+  ]);
   const flat = (at, middle) => Math.hypot(at[0] - middle[0], at[1] - middle[1]);
   // In a scene that has just opened the nodes are not in their places yet; the plan knows where the feet stand.
   const feet = (overlay?.feet[0] ?? []).map((at) => flat(at, overlay.com[0]));
   const reaches = [...nodes.map((name) => flat(client.position(name) ?? body, body)), ...feet];
   return {
     middle: ends.map(([low, high]) => (low + high) / 2),
-    radius: Math.max(LEAST_REACH, ...reaches) + AROUND + Math.hypot(...ends.map(([low, high]) => (high - low) / 2)),
+    radius:
+      Math.max(LEAST_REACH, ...reaches) + AROUND + Math.hypot(...ends.map(([low, high]) => (high - low) / 2)),
   };
 }
 
@@ -67,7 +75,8 @@ function distanceFor(direction, radius, { width, height }) {
   const up = cross(back, right);
   const free = (taken, size) => 1 - Math.min((2 * taken) / size, MOST_TAKEN);
   const [across, along] = [(SLOPE * free(ASIDE, width) * width) / height, SLOPE * free(TAKEN, height)];
-  const needed = (at) => dot(at, back) + Math.max(Math.abs(dot(at, right)) / across, Math.abs(dot(at, up)) / along);
+  const needed = (at) =>
+    dot(at, back) + Math.max(Math.abs(dot(at, right)) / across, Math.abs(dot(at, up)) / along);
   const angles = Array.from({ length: CORNERS }, (_, corner) => (2 * Math.PI * corner) / CORNERS);
   const rim = angles.map((angle) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
   return Math.max(...rim.flatMap((at) => [FLOOR, TOP].map((z) => needed([...at, z - MIDDLE]))));

@@ -23,9 +23,14 @@ export function contactShadow(feet, floor) {
       const first = vertices.length / 3;
       for (let corner = 0; corner < CORNERS; corner += 1) {
         const angle = (2 * Math.PI * corner) / CORNERS;
-        vertices.push(x + OFFSET[0] + radius * Math.cos(angle), y + OFFSET[1] + radius * Math.sin(angle), floor + (layer + 1) * GAP);
+        vertices.push(
+          x + OFFSET[0] + radius * Math.cos(angle),
+          y + OFFSET[1] + radius * Math.sin(angle),
+          floor + (layer + 1) * GAP,
+        );
       }
-      for (let corner = 2; corner < CORNERS; corner += 1) faces.push(first, first + corner - 1, first + corner);
+      for (let corner = 2; corner < CORNERS; corner += 1)
+        faces.push(first, first + corner - 1, first + corner);
     }
   });
   return { vertices: Float32Array.from(vertices), faces: Uint32Array.from(faces) };

@@ -16,8 +16,14 @@ const COLOURS = { [CONTACT]: [31, 138, 91], [SLIP]: [192, 54, 44] };
 
 /** Corners of a foot's ring in its own frame, as line pieces. */
 function ring(sole) {
-  const corner = (at) => [RING_RADIUS * Math.cos((2 * Math.PI * at) / RING_PIECES), RING_RADIUS * Math.sin((2 * Math.PI * at) / RING_PIECES), -sole];
-  return Float32Array.from(Array.from({ length: RING_PIECES }, (_, at) => [...corner(at), ...corner(at + 1)]).flat());
+  const corner = (at) => [
+    RING_RADIUS * Math.cos((2 * Math.PI * at) / RING_PIECES),
+    RING_RADIUS * Math.sin((2 * Math.PI * at) / RING_PIECES),
+    -sole,
+  ];
+  return Float32Array.from(
+    Array.from({ length: RING_PIECES }, (_, at) => [...corner(at), ...corner(at + 1)]).flat(),
+  );
 }
 
 export class GhostMarks {
@@ -64,19 +70,32 @@ export class GhostMarks {
 
   #newMessages() {
     const slips = Float32Array.from(this.#table?.overlay.slips.flat(2) ?? []);
-    const lines = { points: slips.length ? slips : new Float32Array(6), colors: Uint8Array.from(COLOURS[SLIP]) };
-    return [this.#client.updateMessage(SLIP, lines), ...[CONTACT, SLIP].map((name) => visibleMessage(name, this.#table !== null))];
+    const lines = {
+      points: slips.length ? slips : new Float32Array(6),
+      colors: Uint8Array.from(COLOURS[SLIP]),
+    };
+    return [
+      this.#client.updateMessage(SLIP, lines),
+      ...[CONTACT, SLIP].map((name) => visibleMessage(name, this.#table !== null)),
+    ];
   }
 
   #contactMessages(time, pose) {
     const { contacts } = this.#table.overlay;
     const { start, step } = this.#table;
-    const frame = step > 0 ? Math.min(Math.max(Math.round((time - start) / step), 0), contacts.length - 1) : 0;
+    const frame =
+      step > 0 ? Math.min(Math.max(Math.round((time - start) / step), 0), contacts.length - 1) : 0;
     this.#points.fill(0);
     this.#feet.forEach((node, foot) => {
-      if (contacts[frame][foot] === "1") this.#place(this.#ring, pose, node * VALUES_A_NODE, this.#points, foot * this.#ring.length);
+      if (contacts[frame][foot] === "1")
+        this.#place(this.#ring, pose, node * VALUES_A_NODE, this.#points, foot * this.#ring.length);
     });
     if (!this.#isNew) return this.#client.moveSegments(CONTACT, this.#points);
-    return [this.#client.updateMessage(CONTACT, { points: this.#points.slice(), colors: Uint8Array.from(COLOURS[CONTACT]) })];
+    return [
+      this.#client.updateMessage(CONTACT, {
+        points: this.#points.slice(),
+        colors: Uint8Array.from(COLOURS[CONTACT]),
+      }),
+    ];
   }
 }

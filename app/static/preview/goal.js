@@ -25,10 +25,17 @@ export function goalOf(document, plan) {
   const front = (document.orientation === "FB" ? 45 : 0) + 90 * (document.direction - 1);
   const body = plan?.body?.[0] ?? [0, 0];
   const reach = plan?.feet?.[0]?.map((foot) => Math.hypot(foot[0] - body[0], foot[1] - body[1])) ?? [];
-  return { x, y, front, heading: front + stepTurn(document) * document.iterations, radius: Math.max(UNKNOWN_RADIUS, ...reach) + RING_ROOM };
+  return {
+    x,
+    y,
+    front,
+    heading: front + stepTurn(document) * document.iterations,
+    radius: Math.max(UNKNOWN_RADIUS, ...reach) + RING_ROOM,
+  };
 }
 
-const pathOf = (points) => points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+const pathOf = (points) =>
+  points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
 
 /** Whether the floor is seen flat enough for a place on it to be pointed at. */
 function isVisible(points) {
@@ -39,9 +46,19 @@ function isVisible(points) {
 
 /** Draws the goal; false where it cannot be seen. */
 function draw(parts, floor, goal, document) {
-  const around = (degrees, radius) => floor.toStage([goal.x + radius * Math.cos(radians(degrees)), goal.y + radius * Math.sin(radians(degrees))]);
-  const [start, end, knob] = [floor.toStage([0, 0]), floor.toStage([goal.x, goal.y]), around(goal.heading, goal.radius)];
-  const corners = Array.from({ length: RING_CORNERS }, (_, index) => around((360 * index) / RING_CORNERS, goal.radius));
+  const around = (degrees, radius) =>
+    floor.toStage([
+      goal.x + radius * Math.cos(radians(degrees)),
+      goal.y + radius * Math.sin(radians(degrees)),
+    ]);
+  const [start, end, knob] = [
+    floor.toStage([0, 0]),
+    floor.toStage([goal.x, goal.y]),
+    around(goal.heading, goal.radius),
+  ];
+  const corners = Array.from({ length: RING_CORNERS }, (_, index) =>
+    around((360 * index) / RING_CORNERS, goal.radius),
+  );
   if (!isVisible(corners) || !start || !end) return false;
   parts.ring.setAttribute("d", `${pathOf(corners)}Z`);
   parts.way.setAttribute("d", pathOf([start, end]));
@@ -61,7 +78,10 @@ function describe(parts, document) {
   const [x, y] = worldStep(document).map((value) => value * 1000);
   const turn = stepTurn(document);
   parts.goal.setAttribute("aria-valuenow", fixed(stepLength(document) * 1000, 2));
-  parts.goal.setAttribute("aria-valuetext", `step ${fixed(stepLength(document) * 1000)} mm: x ${fixed(x)}, y ${fixed(y)} mm`);
+  parts.goal.setAttribute(
+    "aria-valuetext",
+    `step ${fixed(stepLength(document) * 1000)} mm: x ${fixed(x)}, y ${fixed(y)} mm`,
+  );
   parts.turn.setAttribute("aria-valuenow", turn.toFixed(1));
   parts.turn.setAttribute("aria-valuetext", `turn ${fixed(turn)}°`);
 }
@@ -85,7 +105,9 @@ function stepDrag(edits, preview) {
     key({ key, shiftKey }) {
       const way = ARROWS[key];
       if (!way) return null;
-      const next = worldStep(edits.shown()).map((value, axis) => value + way[axis] * SNAP * (shiftKey ? 10 : 1));
+      const next = worldStep(edits.shown()).map(
+        (value, axis) => value + way[axis] * SNAP * (shiftKey ? 10 : 1),
+      );
       return (document) => withWorldStep(document, next);
     },
   };
@@ -101,7 +123,9 @@ function turnDrag(edits, preview, goal) {
     name: (document) => `Turn to ${fixed(stepTurn(document))}°`,
     begin(pointer) {
       const angle = angleAt(pointer);
-      return angle === null ? null : { angle, turn: stepTurn(edits.shown()), iterations: edits.shown().iterations };
+      return angle === null
+        ? null
+        : { angle, turn: stepTurn(edits.shown()), iterations: edits.shown().iterations };
     },
     drag(pointer, { angle, turn, iterations }, free) {
       const now = angleAt(pointer);
@@ -113,7 +137,11 @@ function turnDrag(edits, preview, goal) {
     key({ key, shiftKey }) {
       const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[key];
       if (!way) return null;
-      const next = clamp(stepTurn(edits.shown()) + way * TURN_SNAP * (shiftKey ? 10 : 1), -MOST_TURN, MOST_TURN);
+      const next = clamp(
+        stepTurn(edits.shown()) + way * TURN_SNAP * (shiftKey ? 10 : 1),
+        -MOST_TURN,
+        MOST_TURN,
+      );
       return (document) => withTurn(document, next);
     },
   };
@@ -121,12 +149,28 @@ function turnDrag(edits, preview, goal) {
 
 function build() {
   const parts = {
-    ring: svg("path", { class: "ring" }), way: svg("path", { class: "way-line" }), look: svg("path", { class: "look" }), start: svg("circle", { class: "start", r: 3 }),
-    goal: handle("goal-place", "Goal", "Drag the goal on the floor to change the step. The arrow keys change the step by 0.5 mm, with Shift by 5 mm"),
-    turn: handle("goal-turn", "Goal turn", "Drag this handle around the goal to change the turn. The arrow keys change the turn by 1°, with Shift by 10°"),
+    ring: svg("path", { class: "ring" }),
+    way: svg("path", { class: "way-line" }),
+    look: svg("path", { class: "look" }),
+    start: svg("circle", { class: "start", r: 3 }),
+    goal: handle(
+      "goal-place",
+      "Goal",
+      "Drag the goal on the floor to change the step. The arrow keys change the step by 0.5 mm, with Shift by 5 mm",
+    ),
+    turn: handle(
+      "goal-turn",
+      "Goal turn",
+      "Drag this handle around the goal to change the turn. The arrow keys change the turn by 1°, with Shift by 10°",
+    ),
     label: h("span", { class: "goal-label" }),
   };
-  byId("goal").replaceChildren(svg("svg", { "aria-hidden": "true" }, parts.ring, parts.way, parts.look, parts.start), parts.turn, parts.label, parts.goal);
+  byId("goal").replaceChildren(
+    svg("svg", { "aria-hidden": "true" }, parts.ring, parts.way, parts.look, parts.start),
+    parts.turn,
+    parts.label,
+    parts.goal,
+  );
   return parts;
 }
 
@@ -136,7 +180,15 @@ export function mountGoal(store, edits, preview) {
   const layer = byId("goal");
   let goal = null;
   let drawn = null;
-  const cancels = [movable(parts.goal, store, edits, stepDrag(edits, preview)), movable(parts.turn, store, edits, turnDrag(edits, preview, () => goal))];
+  const cancels = [
+    movable(parts.goal, store, edits, stepDrag(edits, preview)),
+    movable(
+      parts.turn,
+      store,
+      edits,
+      turnDrag(edits, preview, () => goal),
+    ),
+  ];
 
   function follow() {
     requestAnimationFrame(follow);
@@ -154,8 +206,15 @@ export function mountGoal(store, edits, preview) {
   }
 
   /** Where the scene's floor is not known the goal has no place. */
-  const show = ({ iterate, view }) => layer.toggleAttribute("data-off", Boolean(iterate) || !view || drawn === null);
+  const show = ({ iterate, view }) =>
+    layer.toggleAttribute("data-off", Boolean(iterate) || !view || drawn === null);
   store.watch(({ iterate, view }) => [Boolean(iterate), Boolean(view)], show);
-  window.addEventListener("keydown", (event) => { if (event.key === "Escape") cancels.forEach((cancel) => cancel()); }, true);
+  window.addEventListener(
+    "keydown",
+    (event) => {
+      if (event.key === "Escape") cancels.forEach((cancel) => cancel());
+    },
+    true,
+  );
   follow();
 }

@@ -24,18 +24,39 @@ export function spaceView([projection, view, root], { width, height }) {
   const m = product(projection, inCamera);
   const row = (of, index) => [of[index], of[4 + index], of[8 + index]];
   const [right, up, back] = [0, 1, 2].map((index) => row(inCamera, index));
-  const eye = right.map((_, axis) => -(right[axis] * inCamera[12] + up[axis] * inCamera[13] + back[axis] * inCamera[14]));
+  const eye = right.map(
+    (_, axis) => -(right[axis] * inCamera[12] + up[axis] * inCamera[13] + back[axis] * inCamera[14]),
+  );
   const along = (index, [x, y, z]) => m[index] * x + m[4 + index] * y + m[8 + index] * z + m[12 + index];
   const toScreen = (at) => {
     const depth = along(3, at);
-    return depth > 0 ? [(width / 2) * (1 + along(0, at) / depth), (height / 2) * (1 - along(1, at) / depth)] : null;
+    return depth > 0
+      ? [(width / 2) * (1 + along(0, at) / depth), (height / 2) * (1 - along(1, at) / depth)]
+      : null;
   };
-  return { toScreen, right, up, back, eye, key: `${width} ${height} ${m.map((value) => value.toFixed(5)).join()}` };
+  return {
+    toScreen,
+    right,
+    up,
+    back,
+    eye,
+    key: `${width} ${height} ${m.map((value) => value.toFixed(5)).join()}`,
+  };
 }
 
 /** Inverse of a 3 × 3 matrix given by rows, up to its scale. */
 function adjugate([a, b, c, d, e, f, g, h, i]) {
-  return [e * i - f * h, c * h - b * i, b * f - c * e, f * g - d * i, a * i - c * g, c * d - a * f, d * h - e * g, b * g - a * h, a * e - b * d];
+  return [
+    e * i - f * h,
+    c * h - b * i,
+    b * f - c * e,
+    f * g - d * i,
+    a * i - c * g,
+    c * d - a * f,
+    d * h - e * g,
+    b * g - a * h,
+    a * e - b * d,
+  ];
 }
 
 function apply(m, [x, y]) {
@@ -62,5 +83,9 @@ export function groundView([projection, view, root], height, box) {
   ];
   const back = adjugate(seen);
   const before = ([a, b]) => w[0] * a + w[1] * b + w[2] > 0;
-  return { toScreen: (at) => (before(at) ? apply(seen, at) : null), toGround: (at) => apply(back, at), key: seen.map((value) => value.toFixed(5)).join() };
+  return {
+    toScreen: (at) => (before(at) ? apply(seen, at) : null),
+    toGround: (at) => apply(back, at),
+    key: seen.map((value) => value.toFixed(5)).join(),
+  };
 }

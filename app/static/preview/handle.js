@@ -15,14 +15,22 @@ const LEAST_PX = 3;
 
 /** A handle; `help` says what dragging and keys do. */
 export function handle(className, name, help) {
-  return h("div", { class: `goal-handle ${className}`, role: "slider", tabindex: "0", "aria-label": name, "aria-description": help, title: `${name}. ${help}`, data: { arrows: "" } });
+  return h("div", {
+    class: `goal-handle ${className}`,
+    role: "slider",
+    tabindex: "0",
+    "aria-label": name,
+    "aria-description": help,
+    title: `${name}. ${help}`,
+    data: { arrows: "" },
+  });
 }
 
 /**
  * Makes a handle draggable and movable by keys; every change shows the document changed, one edit is made at the end.
  * @param {HTMLElement} element
- * @param {object} store
- * @param {object} edits
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
  * @param {{begin: Function, drag: Function, key: Function, name: Function}} way `begin(point)` gives what `drag(point, from,
  *   free)` needs, `key(event)` a change or null; changes are functions from document to document
  */
@@ -55,7 +63,8 @@ export function movable(element, store, edits, way) {
     element.dataset.held = "";
   });
   element.addEventListener("pointermove", (event) => {
-    const isNear = !change && from && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < LEAST_PX;
+    const isNear =
+      !change && from && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < LEAST_PX;
     const next = from && !isNear && way.drag([event.clientX, event.clientY], from, event.altKey);
     if (next) show(next);
   });
@@ -68,7 +77,9 @@ export function movable(element, store, edits, way) {
     event.stopPropagation();
     show(next);
   });
-  element.addEventListener("keyup", (event) => { if (event.key.startsWith("Arrow")) end(true); });
+  element.addEventListener("keyup", (event) => {
+    if (event.key.startsWith("Arrow")) end(true);
+  });
   element.addEventListener("blur", () => end(true));
   return () => end(false);
 }
@@ -77,7 +88,9 @@ export function movable(element, store, edits, way) {
 export function floorOf(preview) {
   const view = preview.ground();
   if (!view) return null;
-  const [stage, frame] = [byId("viser").parentElement, byId("viser")].map((element) => element.getBoundingClientRect());
+  const [stage, frame] = [byId("viser").parentElement, byId("viser")].map((element) =>
+    element.getBoundingClientRect(),
+  );
   const [dx, dy] = [frame.left - stage.left, frame.top - stage.top];
   return {
     key: `${view.key} ${dx} ${dy}`,

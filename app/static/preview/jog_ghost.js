@@ -17,7 +17,10 @@ function placeAt(plan, time) {
 
 /** The place after steps of the body, which go along its own axes. */
 function stepped({ x, y, heading }, steps) {
-  const along = (axis) => steps.filter((step) => step.part === "body" && step.axis === axis).reduce((sum, step) => sum + step.by_mm / 1000, 0);
+  const along = (axis) =>
+    steps
+      .filter((step) => step.part === "body" && step.axis === axis)
+      .reduce((sum, step) => sum + step.by_mm / 1000, 0);
   const [forwards, left] = [along("x"), along("y")];
   const [cosine, sine] = [Math.cos(heading), Math.sin(heading)];
   return { x: x + cosine * forwards - sine * left, y: y + sine * forwards + cosine * left, heading };
@@ -37,7 +40,14 @@ export function mountJogGhost(store, preview, playback) {
   });
   const follow = () => {
     const { jog } = store.state;
-    const target = jog?.target_mm ? { robot: jog.robot, steps: [], from_mm: jog.target_mm, ...stepped(placeAt(shownPlan(store.state), playback.time), jog.steps) } : null;
+    const target = jog?.target_mm
+      ? {
+          robot: jog.robot,
+          steps: [],
+          from_mm: jog.target_mm,
+          ...stepped(placeAt(shownPlan(store.state), playback.time), jog.steps),
+        }
+      : null;
     const key = target && JSON.stringify(target);
     if (key === shown) return;
     shown = key;

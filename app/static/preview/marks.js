@@ -4,7 +4,15 @@
  */
 
 import { contactShadow } from "./contact_shadow.js";
-import { floorOf, planUpdates, polygonUpdates, pressureAt, sampleAt, standing, troubleUpdates } from "./overlay.js";
+import {
+  floorOf,
+  planUpdates,
+  polygonUpdates,
+  pressureAt,
+  sampleAt,
+  standing,
+  troubleUpdates,
+} from "./overlay.js";
 import { visibleMessage } from "./viser_client.js";
 
 export const COM = "/overlay/com";
@@ -15,8 +23,12 @@ export const STILL = 1e-7;
 
 /** Marks of a fixed name by the part that shows or hides them; swings and footholds have a mark a foot. */
 const PARTS = {
-  polygon: ["/overlay/polygon", "/overlay/polygon_edge"], com: [COM, "/overlay/com_trace"], cop: [COP, "/overlay/cop_trace"],
-  trouble: ["/overlay/trouble"], reach: [SHELLS], shadow: [SHADOW],
+  polygon: ["/overlay/polygon", "/overlay/polygon_edge"],
+  com: [COM, "/overlay/com_trace"],
+  cop: [COP, "/overlay/cop_trace"],
+  trouble: ["/overlay/trouble"],
+  reach: [SHELLS],
+  shadow: [SHADOW],
 };
 
 export class Marks {
@@ -27,7 +39,17 @@ export class Marks {
   #caution = 0.003;
   #theme = "light";
   #isGrey = false;
-  #visible = { polygon: true, com: true, cop: true, traces: true, footholds: true, trouble: true, robot: true, reach: false, shadow: true };
+  #visible = {
+    polygon: true,
+    com: true,
+    cop: true,
+    traces: true,
+    footholds: true,
+    trouble: true,
+    robot: true,
+    reach: false,
+    shadow: true,
+  };
   #planSent = false;
   #visibleSent = null;
   #sample = -1;
@@ -40,10 +62,14 @@ export class Marks {
     this.#client = client;
   }
 
-  get overlay() { return this.#overlay; }
+  get overlay() {
+    return this.#overlay;
+  }
 
   /** Whether nothing of the plan has been sent yet. */
-  get isNew() { return !this.#planSent; }
+  get isNew() {
+    return !this.#planSent;
+  }
 
   setOverlay(overlay, trouble = this.#trouble) {
     this.#overlay = overlay;
@@ -120,8 +146,10 @@ export class Marks {
     if (sample === this.#sample) return [];
     this.#sample = sample;
     return this.#updates([
-      ...polygonUpdates(this.#overlay, sample, this.#caution, this.#trouble, this.#theme, this.#isGrey), troubleUpdates(this.#overlay, sample, this.#trouble, this.#theme),
-      ...this.#shellUpdates(sample), [SHADOW, contactShadow(standing(this.#overlay, sample), floorOf(this.#overlay))],
+      ...polygonUpdates(this.#overlay, sample, this.#caution, this.#trouble, this.#theme, this.#isGrey),
+      troubleUpdates(this.#overlay, sample, this.#trouble, this.#theme),
+      ...this.#shellUpdates(sample),
+      [SHADOW, contactShadow(standing(this.#overlay, sample), floorOf(this.#overlay))],
     ]);
   }
 
@@ -135,7 +163,12 @@ export class Marks {
 
   #pressureMessages(time) {
     const at = this.#overlay ? pressureAt(this.#overlay, time) : null;
-    if (!at || !this.#client.node(COP) || (this.#pressure && Math.hypot(at[0] - this.#pressure[0], at[1] - this.#pressure[1]) < STILL)) return [];
+    if (
+      !at
+      || !this.#client.node(COP)
+      || (this.#pressure && Math.hypot(at[0] - this.#pressure[0], at[1] - this.#pressure[1]) < STILL)
+    )
+      return [];
     this.#pressure = at;
     return [{ type: "SetPositionMessage", name: COP, owner: "", position: at }];
   }
@@ -143,9 +176,14 @@ export class Marks {
   /** Changes of what is visible. */
   visibleMessages() {
     const known = (name) => this.#client.node(name);
-    const wanted = Object.entries(PARTS).flatMap(([part, names]) => names.map((name) => [name, this.#visible[part] && this.#has(part)]));
+    const wanted = Object.entries(PARTS).flatMap(([part, names]) =>
+      names.map((name) => [name, this.#visible[part] && this.#has(part)]),
+    );
     for (let foot = 1; known(`/overlay/swing${foot}`); foot += 1) {
-      wanted.push([`/overlay/swing${foot}`, this.#visible.traces && this.#has("traces")], [`/overlay/foothold${foot}`, this.#visible.footholds && this.#has("footholds")]);
+      wanted.push(
+        [`/overlay/swing${foot}`, this.#visible.traces && this.#has("traces")],
+        [`/overlay/foothold${foot}`, this.#visible.footholds && this.#has("footholds")],
+      );
     }
     const messages = wanted.filter(([name]) => known(name)).map(([name, on]) => visibleMessage(name, on));
     messages.push(visibleMessage("/robot", this.#visible.robot));
@@ -162,13 +200,18 @@ export class Marks {
   }
 
   #updates(updates) {
-    return updates.filter(([name, values]) => this.#client.node(name) && this.#isNews(name, values)).map(([name, values]) => this.#client.updateMessage(name, values));
+    return updates
+      .filter(([name, values]) => this.#client.node(name) && this.#isNews(name, values))
+      .map(([name, values]) => this.#client.updateMessage(name, values));
   }
 
   /** Whether a mark differs from what was sent last: it costs the client a new geometry or material, and most feet keep theirs. */
   #isNews(name, values) {
     const key = `${name} ${Object.keys(values)}`;
-    const [before, now] = [this.#sent.get(key), Object.values(values).flatMap((value) => (ArrayBuffer.isView(value) ? [...value] : value))];
+    const [before, now] = [
+      this.#sent.get(key),
+      Object.values(values).flatMap((value) => (ArrayBuffer.isView(value) ? [...value] : value)),
+    ];
     this.#sent.set(key, now);
     return !before || before.length !== now.length || now.some((value, index) => value !== before[index]);
   }
@@ -177,7 +220,8 @@ export class Marks {
 const POSTS = 6;
 
 /** A colour's share as light: the client takes colours of line ends for that, and shows them paler otherwise. */
-const asLight = (value) => Math.round(255 * (value > 10 ? ((value / 255 + 0.055) / 1.055) ** 2.4 : value / 255 / 12.92));
+const asLight = (value) =>
+  Math.round(255 * (value > 10 ? ((value / 255 + 0.055) / 1.055) ** 2.4 : value / 255 / 12.92));
 
 /** A point of a module's frame (y outwards) in the robot's. */
 function inRobot(azimuth, radius, [x, y], z) {
@@ -188,7 +232,10 @@ function inRobot(azimuth, radius, [x, y], z) {
 /** Points of a layer's outline in the module's frame; null where nothing of it can be reached. */
 function outline(radii) {
   if (radii.some((radius) => radius <= 0)) return null;
-  return radii.map((radius, ray) => [radius * Math.cos((2 * Math.PI * ray) / radii.length), radius * Math.sin((2 * Math.PI * ray) / radii.length)]);
+  return radii.map((radius, ray) => [
+    radius * Math.cos((2 * Math.PI * ray) / radii.length),
+    radius * Math.sin((2 * Math.PI * ray) / radii.length),
+  ]);
 }
 
 /** Index pairs [layer, ray] of the lines: round each layer, and a few posts from layer to layer. */
@@ -196,9 +243,17 @@ function* edges(rings) {
   for (let layer = 0; layer < rings.length; layer += 1) {
     if (!rings[layer]) continue;
     const rays = rings[layer].length;
-    for (let ray = 0; ray < rays; ray += 1) yield [[layer, ray], [layer, (ray + 1) % rays]];
+    for (let ray = 0; ray < rays; ray += 1)
+      yield [
+        [layer, ray],
+        [layer, (ray + 1) % rays],
+      ];
     if (!rings[layer + 1]) continue;
-    for (let ray = 0; ray < rays; ray += rays / POSTS) yield [[layer, ray], [layer + 1, ray]];
+    for (let ray = 0; ray < rays; ray += rays / POSTS)
+      yield [
+        [layer, ray],
+        [layer + 1, ray],
+      ];
   }
 }
 

@@ -67,7 +67,8 @@ function dashes(corners) {
   corners.forEach((start, index) => {
     const end = corners[(index + 1) % corners.length];
     const length = Math.hypot(...start.map((value, axis) => end[axis] - value));
-    const at = (place) => start.map((value, axis) => value + ((end[axis] - value) * Math.min(place, length)) / length);
+    const at = (place) =>
+      start.map((value, axis) => value + ((end[axis] - value) * Math.min(place, length)) / length);
     for (let place = 0; place < length; place += DASH + SPACE) parts.push(...at(place), ...at(place + DASH));
   });
   return parts.length ? Float32Array.from(parts) : new Float32Array(6);
@@ -88,7 +89,8 @@ const BALANCE = new Set(["body_torque", "margin"]);
 const missing = (trouble, sample) => trouble.filter(({ first, last }) => first <= sample && sample <= last);
 
 /** The feet that stand at a sample. */
-export const standing = (overlay, sample) => overlay.feet[sample].filter((_, foot) => overlay.contact[sample][foot]);
+export const standing = (overlay, sample) =>
+  overlay.feet[sample].filter((_, foot) => overlay.contact[sample][foot]);
 
 /** Updates that show one sample's support polygon: [node, properties] pairs; its edge is broken where balance or the motion is lacking. */
 export function polygonUpdates(overlay, sample, caution, trouble = [], theme = "light", isGrey = false) {
@@ -96,13 +98,23 @@ export function polygonUpdates(overlay, sample, caution, trouble = [], theme = "
   const lacks = isGrey || missing(trouble, sample).some(({ family }) => BALANCE.has(family));
   const colour = Uint8Array.from((lacks ? BAD : marginColour(overlay.margins[sample], caution))[theme]);
   const edge = corners.map((corner) => floorPoint(overlay, corner, 2));
-  const area = corners.length >= 3 ? corners : [[0, 0], [0, 0], [0, 0]];
+  const area =
+    corners.length >= 3
+      ? corners
+      : [
+          [0, 0],
+          [0, 0],
+          [0, 0],
+        ];
   const vertices = Float32Array.from(area.flatMap((corner) => floorPoint(overlay, corner, 1)));
   const faces = new Uint32Array((area.length - 2) * 3);
   for (let i = 0; i < area.length - 2; i += 1) faces.set([0, i + 1, i + 2], 3 * i);
   return [
     ["/overlay/polygon", { vertices, faces, color: [...colour] }],
-    ["/overlay/polygon_edge", { points: lacks ? dashes(edge) : pieces(edge, corners.length > 2), colors: colour }],
+    [
+      "/overlay/polygon_edge",
+      { points: lacks ? dashes(edge) : pieces(edge, corners.length > 2), colors: colour },
+    ],
   ];
 }
 
@@ -112,17 +124,39 @@ export function troubleUpdates(overlay, sample, trouble, theme = "light") {
   const lines = [];
   for (const { first, feet, rings, places } of missing(trouble, sample)) {
     const [ring, place] = [rings?.[sample - first], places?.[sample - first]];
-    if (ring) lines.push(...pieces(ring.map((corner) => floorPoint(overlay, corner, 4)), true), ...cross(place ? floorPoint(overlay, place, 4) : at(feet[0])));
+    if (ring)
+      lines.push(
+        ...pieces(
+          ring.map((corner) => floorPoint(overlay, corner, 4)),
+          true,
+        ),
+        ...cross(place ? floorPoint(overlay, place, 4) : at(feet[0])),
+      );
     else if (feet.length === 2) lines.push(...pieces(feet.map(at)));
   }
-  return ["/overlay/trouble", { points: lines.length ? Float32Array.from(lines) : new Float32Array(6), colors: Uint8Array.from(BAD[theme]) }];
+  return [
+    "/overlay/trouble",
+    {
+      points: lines.length ? Float32Array.from(lines) : new Float32Array(6),
+      colors: Uint8Array.from(BAD[theme]),
+    },
+  ];
 }
 
 /** Line pieces of several drawings. */
 const joined = (parts) => Float32Array.from(parts.flatMap((part) => [...part]));
 
 function cross([x, y, z], arm = 0.004) {
-  return [...pieces([[x - arm, y - arm, z], [x + arm, y + arm, z]]), ...pieces([[x - arm, y + arm, z], [x + arm, y - arm, z]])];
+  return [
+    ...pieces([
+      [x - arm, y - arm, z],
+      [x + arm, y + arm, z],
+    ]),
+    ...pieces([
+      [x - arm, y + arm, z],
+      [x + arm, y - arm, z],
+    ]),
+  ];
 }
 
 /** Where the centre of pressure is on the floor at a time, linear between samples; null where it is not known. */
@@ -132,7 +166,11 @@ export function pressureAt(overlay, time) {
   const at = sampleAt(times, time);
   const next = Math.min(at + 1, times.length - 1);
   const part = next > at ? Math.min(Math.max((time - times[at]) / (times[next] - times[at]), 0), 1) : 0;
-  return floorPoint(overlay, [0, 1].map((axis) => cop[at][axis] * (1 - part) + cop[next][axis] * part), 5);
+  return floorPoint(
+    overlay,
+    [0, 1].map((axis) => cop[at][axis] * (1 - part) + cop[next][axis] * part),
+    5,
+  );
 }
 
 /** Updates for everything that stays the same all through a plan: [node, properties] pairs. */
@@ -140,14 +178,26 @@ export function planUpdates(overlay, theme) {
   const ink = Uint8Array.from(INK[theme]);
   const trace = overlay.com.map((point) => floorPoint(overlay, point, 3));
   const updates = [
-    ["/overlay/com_trace", { points: joined([pieces(trace), ...(overlay.stops ?? []).map((at) => cross(trace[at], 0.0022))]), colors: ink }],
+    [
+      "/overlay/com_trace",
+      {
+        points: joined([pieces(trace), ...(overlay.stops ?? []).map((at) => cross(trace[at], 0.0022))]),
+        colors: ink,
+      },
+    ],
     ["/overlay/com", { color: [...ink] }],
     ["/overlay/com/quarters", { color: PAPER[theme] }],
     ["/overlay/contact_shadow", { opacity: SHADOW[theme] }],
   ];
   if (overlay.cop) {
     const accent = Uint8Array.from(ACCENT[theme]);
-    updates.push(["/overlay/cop_trace", { points: pieces(overlay.cop.map((point) => floorPoint(overlay, point, 4))), colors: accent }], ["/overlay/cop", { color: [...accent] }]);
+    updates.push(
+      [
+        "/overlay/cop_trace",
+        { points: pieces(overlay.cop.map((point) => floorPoint(overlay, point, 4))), colors: accent },
+      ],
+      ["/overlay/cop", { color: [...accent] }],
+    );
   }
   for (let foot = 0; foot < overlay.feet[0].length; foot += 1) {
     updates.push([`/overlay/swing${foot + 1}`, { points: swings(overlay, foot) }]);

@@ -38,7 +38,7 @@ function writePieces(values, points, corners) {
 
 /**
  * Moves the ends of a line's pieces in the buffer that is drawn from.
- * @param {object} geometry as the client made it, or a plain one
+ * @param {Record<string, any>} geometry as the client made it, or a plain one
  * @param {Float32Array} points pieces × 2 × 3 values
  * @returns {boolean} false where it has another number of pieces; then nothing is moved
  */
@@ -82,7 +82,11 @@ function plainGeometry(lines) {
   plain.setAttribute("uv", repeated(uv, pieces));
   spread(plain, lines, ends, corners);
   spread(plain, lines, colours, corners);
-  plain.setIndex(Array.from({ length: pieces }, (_, piece) => Array.from(lines.index.array, (corner) => corner + piece * corners)).flat());
+  plain.setIndex(
+    Array.from({ length: pieces }, (_, piece) =>
+      Array.from(lines.index.array, (corner) => corner + piece * corners),
+    ).flat(),
+  );
   plain.userData.corners = corners;
   lines.addEventListener("dispose", () => plain.dispose());
   return plain;
@@ -92,7 +96,11 @@ function plainGeometry(lines) {
 function shadePlainly(material) {
   if (plainMaterials.has(material) || material.dashed) return;
   plainMaterials.add(material);
-  material.onBeforeCompile = (shader) => Object.assign(shader, { vertexShader: shader.vertexShader.replace("void main() {", CORNERS), fragmentShader: PIXELS });
+  material.onBeforeCompile = (shader) =>
+    Object.assign(shader, {
+      vertexShader: shader.vertexShader.replace("void main() {", CORNERS),
+      fragmentShader: PIXELS,
+    });
   material.customProgramCacheKey = () => "plain line";
   material.needsUpdate = true;
 }

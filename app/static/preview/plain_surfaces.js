@@ -25,7 +25,8 @@ const plain = new WeakSet();
 export function drawSurfacePlainly({ isMesh, material }) {
   if (!isMesh || material.type !== "MeshStandardMaterial" || plain.has(material)) return;
   plain.add(material);
-  material.onBeforeCompile = (shader) => Object.assign(shader, { vertexShader: CORNERS, fragmentShader: PIXELS });
+  material.onBeforeCompile = (shader) =>
+    Object.assign(shader, { vertexShader: CORNERS, fragmentShader: PIXELS });
   material.customProgramCacheKey = () => "plain surface";
   material.needsUpdate = true;
 }

@@ -30,7 +30,8 @@ const SLOWEST = 0.1;
 const FASTEST = 10;
 
 /** Index of the time that is nearest. */
-const nearest = (times, time) => times.reduce((best, one, index) => (Math.abs(one - time) < Math.abs(times[best] - time) ? index : best), 0);
+const nearest = (times, time) =>
+  times.reduce((best, one, index) => (Math.abs(one - time) < Math.abs(times[best] - time) ? index : best), 0);
 
 export class Playback extends EventTarget {
   #time = 0;
@@ -46,7 +47,7 @@ export class Playback extends EventTarget {
   #cancelFrame;
 
   /**
-   * @param {object} options
+   * @param {Record<string, any>} options
    * @param {number} [options.duration] of the plan, s
    * @param {number} [options.step] between two samples, s
    * @param {() => number} [options.now] clock in ms; tests give their own
@@ -68,11 +69,21 @@ export class Playback extends EventTarget {
     this.#cancelFrame = cancelFrame;
   }
 
-  get time() { return this.#time; }
-  get duration() { return this.#duration; }
-  get speed() { return this.#speed; }
-  get loop() { return this.#loop; }
-  get playing() { return this.#playing; }
+  get time() {
+    return this.#time;
+  }
+  get duration() {
+    return this.#duration;
+  }
+  get speed() {
+    return this.#speed;
+  }
+  get loop() {
+    return this.#loop;
+  }
+  get playing() {
+    return this.#playing;
+  }
 
   setPlan(duration, samples = this.#samples) {
     this.#duration = Math.max(0, duration);
@@ -118,8 +129,12 @@ export class Playback extends EventTarget {
     else this.setTime(Math.round(this.#time / this.#samples + count) * this.#samples);
   }
 
-  toStart() { this.setTime(0); }
-  toEnd() { this.setTime(this.#duration); }
+  toStart() {
+    this.setTime(0);
+  }
+  toEnd() {
+    this.setTime(this.#duration);
+  }
 
   setSpeed(factor) {
     if (this.#playing) this.#advance();

@@ -10,7 +10,10 @@ import { ARROWS, SNAP, floorOf, handle, movable, place, snapped } from "./handle
 
 /** Index of the pose that is nearest to a moment; null where it is none that can be moved. */
 function poseAt({ times }, time) {
-  const index = times.reduce((best, one, at) => (Math.abs(one - time) < Math.abs(times[best] - time) ? at : best), 0);
+  const index = times.reduce(
+    (best, one, at) => (Math.abs(one - time) < Math.abs(times[best] - time) ? at : best),
+    0,
+  );
   return index > 0 && index < times.length - 1 ? index : null;
 }
 
@@ -25,7 +28,7 @@ const pin = (index, offset) => (document) => withPinned(document, index + 1, off
 
 /**
  * What dragging and keys change; `held` gives the index of the pose that is being moved.
- * @param {{edits: object, preview: object, plan: () => object, held: () => number|null, take: () => number|null}} parts
+ * @param {{edits: Record<string, any>, preview: Record<string, any>, plan: () => Record<string, any>, held: () => number|null, take: () => number|null}} parts
  */
 function poseDrag({ edits, preview, plan, held, take }) {
   return {
@@ -33,13 +36,18 @@ function poseDrag({ edits, preview, plan, held, take }) {
     begin(pointer) {
       const at = floorOf(preview)?.ofPointer(pointer);
       const index = at ? take() : null;
-      return index === null ? null : { at, index, from: offsetOf(plan(), index), even: evenTravel(plan().body) };
+      return index === null
+        ? null
+        : { at, index, from: offsetOf(plan(), index), even: evenTravel(plan().body) };
     },
     drag(pointer, { at, index, from, even }, free) {
       const now = floorOf(preview)?.ofPointer(pointer);
       if (!now) return null;
       const moved = even.toOffset([now[0] - at[0], now[1] - at[1]]);
-      return pin(index, from.map((value, axis) => (free ? value + moved[axis] : snapped(value + moved[axis], SNAP))));
+      return pin(
+        index,
+        from.map((value, axis) => (free ? value + moved[axis] : snapped(value + moved[axis], SNAP))),
+      );
     },
     key({ key, shiftKey }) {
       const arrow = ARROWS[key];
@@ -47,8 +55,13 @@ function poseDrag({ edits, preview, plan, held, take }) {
       if (index === null) return null;
       const known = pinOf(edits.shown(), index + 1);
       const from = known ? [known.along, known.sideways] : offsetOf(plan(), index);
-      const moved = evenTravel(plan().body).toOffset(arrow.map((value) => value * SNAP * (shiftKey ? 10 : 1)));
-      return pin(index, from.map((value, axis) => value + moved[axis]));
+      const moved = evenTravel(plan().body).toOffset(
+        arrow.map((value) => value * SNAP * (shiftKey ? 10 : 1)),
+      );
+      return pin(
+        index,
+        from.map((value, axis) => value + moved[axis]),
+      );
     },
   };
 }
@@ -59,10 +72,23 @@ function poseUnderHand(store, playback, plan) {
   let isOwn = false;
   const isPinnable = () => {
     const known = plan();
-    return Boolean(shownDocument(store.state)?.poses) && known?.poses?.pinnable !== false && known?.times.length > 2 && !store.state.iterate && !playback.playing;
+    return (
+      Boolean(shownDocument(store.state)?.poses)
+      && known?.poses?.pinnable !== false
+      && known?.times.length > 2
+      && !store.state.iterate
+      && !playback.playing
+    );
   };
-  playback.addEventListener("time", ({ detail }) => { if (!isOwn && detail.cause !== "plan") index = null; });
-  store.watch(({ selected }) => [selected], () => { index = null; });
+  playback.addEventListener("time", ({ detail }) => {
+    if (!isOwn && detail.cause !== "plan") index = null;
+  });
+  store.watch(
+    ({ selected }) => [selected],
+    () => {
+      index = null;
+    },
+  );
   const here = () => {
     if (!isPinnable()) return null;
     return index !== null && index < plan().times.length - 1 ? index : poseAt(plan(), playback.time);
@@ -70,7 +96,10 @@ function poseUnderHand(store, playback, plan) {
   return {
     here,
     held: () => index,
-    take: () => { index = here(); return index; },
+    take: () => {
+      index = here();
+      return index;
+    },
     /** Moves come to last longer or shorter: the playhead goes along with the pose. */
     follow() {
       const time = here() === null || index === null ? null : plan().times[index];
@@ -95,16 +124,25 @@ function describe({ knob, label }, plan, index, pinned) {
 /** Lays the handle over the scene and keeps it where the camera sees the pose. */
 export function mountPoseHandle(store, edits, playback, preview) {
   const layer = byId("pose");
-  const knob = handle("pose-place", "Pose", "Drag this handle on the floor to move the body in this pose. "
-    + "The pose is then pinned: the search keeps the body at this place. "
-    + "The arrow keys move the body by 0.5 mm, with Shift by 5 mm");
+  const knob = handle(
+    "pose-place",
+    "Pose",
+    "Drag this handle on the floor to move the body in this pose. "
+      + "The pose is then pinned: the search keeps the body at this place. "
+      + "The arrow keys move the body by 0.5 mm, with Shift by 5 mm",
+  );
   knob.setAttribute("aria-valuemin", "-30");
   knob.setAttribute("aria-valuemax", "30");
   const label = h("span", { class: "goal-label" });
   layer.append(label, knob);
   const plan = () => shownPlan(store.state);
   const pose = poseUnderHand(store, playback, plan);
-  const cancel = movable(knob, store, edits, poseDrag({ edits, preview, plan, held: pose.held, take: pose.take }));
+  const cancel = movable(
+    knob,
+    store,
+    edits,
+    poseDrag({ edits, preview, plan, held: pose.held, take: pose.take }),
+  );
   let drawn = null;
 
   function follow() {
@@ -115,7 +153,10 @@ export function mountPoseHandle(store, edits, playback, preview) {
     // What is refused has no motion; while it is dragged on the mark stays where it was.
     if (at === null && store.state.gesture) return;
     layer.toggleAttribute("data-off", at === null);
-    if (at === null) { drawn = null; return; }
+    if (at === null) {
+      drawn = null;
+      return;
+    }
     pose.follow();
     const pinned = pinOf(shownDocument(store.state), index + 1);
     const key = `${floor.key} ${plan().hash} ${index} ${JSON.stringify(pinned)}`;
@@ -125,6 +166,12 @@ export function mountPoseHandle(store, edits, playback, preview) {
     describe({ knob, label }, plan(), index, pinned);
   }
 
-  window.addEventListener("keydown", (event) => { if (event.key === "Escape") cancel(); }, true);
+  window.addEventListener(
+    "keydown",
+    (event) => {
+      if (event.key === "Escape") cancel();
+    },
+    true,
+  );
   follow();
 }

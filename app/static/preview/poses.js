@@ -15,8 +15,9 @@ export class PoseTable {
     if (length === 0 || 4 + length > buffer.byteLength) throw new Error(CUT_SHORT);
     const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     if (header.format !== "footfall-poses" || header.version !== 1) {
-      throw new Error(`The poses have an unknown format (${header.format} ${header.version}). `
-        + "Reload the page.");
+      throw new Error(
+        `The poses have an unknown format (${header.format} ${header.version}). ` + "Reload the page.",
+      );
     }
     const count = header.frames * header.nodes.length * VALUES_A_NODE;
     if (buffer.byteLength < 4 + length + 4 * count) throw new Error(CUT_SHORT);
@@ -29,7 +30,9 @@ export class PoseTable {
     this.values = new Float32Array(buffer, 4 + length, count);
   }
 
-  get duration() { return this.step * (this.frames - 1); }
+  get duration() {
+    return this.step * (this.frames - 1);
+  }
 
   /**
    * All nodes' poses at a time, linear between frames.
@@ -64,4 +67,12 @@ export class PoseTable {
       into[at + i] = values[low + i] * (1 - part) + values[high + i] * part;
     }
   }
+}
+
+/** The bytes of the poses at an address. */
+export async function downloaded(url) {
+  const answer = await fetch(url);
+  if (!answer.ok)
+    throw new Error(`The poses of this plan could not be loaded (${answer.status}). Reload the page.`);
+  return answer.arrayBuffer();
 }

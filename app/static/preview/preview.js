@@ -3,12 +3,6 @@
  *
  * All poses of a plan come once, as one binary; a moved playhead costs no message to the server.
  *
- *   const frame = document.querySelector("iframe");
- *   const preview = new Preview(frame);            // opens "/viser/?websocket=ws://HOST/viser/ws?robot=…" in it
- *   await preview.ready();
- *   await preview.loadPoses(`/api/gaits/${id}/poses?plan=${hash}`);   // or an ArrayBuffer
- *   playback.addEventListener("time", (event) => preview.setTime(event.detail.time));
- *
  * Methods:
  *   ready(timeoutMs = 20000)      Promise: the scene of the robot is in the client; rejects with a sentence
  *   loadPoses(source, trouble)    Poses of another robot open that robot's scene. Promise<{ robot, duration, frames, nodes }>: URL string or ArrayBuffer; the
@@ -16,7 +10,6 @@
  *                                 promise then resolves to null). May be called before the scene is ready.
  *                                 trouble: what is infeasible, marked at its time: [{ first, last, feet, family,
  *                                 rings }] with outlines of reach [knot][corner][2] m where they are known
- *   setTrouble(trouble)           other marks of what is infeasible on the poses that are shown
  *   setGrey(grey)                 the robot in shades of grey: it is drawn by another plan than the gait's own
  *   setTime(seconds, inFrame)     shows the pose at that time, interpolated; cheap, call it every frame. inFrame: called while
  *                                 the page makes a frame, so that it is drawn in this one where there is no GPU
@@ -25,19 +18,15 @@
  *                                   margins: [n] m }   null takes it away
  *   setGhost(kind, buffer | null) another version of the gait as a quiet second robot: "before", "saved", "measured", "simulated" or "jog"
  *   setTracks(tracks)             where feet were in trials, lines over the gait: list of `GET /api/trials/{id}/scene`, none takes them away
- *   setReach(reach | null)        where the feet can be, of the poses that are shown (`GET …/reach`)
  *   show(part, visible)           part: "polygon", "com", "shadow", "cop", "traces", "footholds", "trouble", "robot", "reach"
  *   setCaution(metres)            margin below which the polygon is amber (0.003 by default; below 0 it is red)
- *   setDark(dark)                 backdrop and floor for the dark theme
  *   setView(name, front = 0)      "perspective", "top", "front", "left", "back", "right", so that the whole way is in view; front: the
  *                                 way that the robot looks, degrees
  *   refit()                       after another size: fits the view again; one that was moved by hand keeps what it shows
  *   view()                        what the camera sees (see `ViserClient.view`), null where it is not known
  *   ground()                      how the floor is seen now: { toScreen([x, y]), toGround([px, py]) } between m on the
  *                                 floor and pixels of the frame; null where the client's camera is unknown
- *   setBusy(busy)                 whether more is about to change: coarse pixels meanwhile where there is no GPU
  *   drawn()                       Promise: what was shown before has been handed to a frame of the client
- *   dispose()
  * Properties: time, knowsPressure, isMeasured, overlay and info (of the loaded plan or null), route ("direct", "server" or "none"), posesShown (count).
  * Events: "opening" (detail: the robot whose scene is being loaded), "ready" (its scene is there; also when it was
  *   made anew after a reconnection),
@@ -50,7 +39,7 @@ import { COM, Marks, STILL } from "./marks.js";
 import { Camera, wayOf } from "./camera.js";
 import { floorOf } from "./overlay.js";
 import { paintGrey } from "./plain_surfaces.js";
-import { PoseTable, VALUES_A_NODE } from "./poses.js";
+import { PoseTable, VALUES_A_NODE, downloaded } from "./poses.js";
 import { ServerRoute } from "./server_route.js";
 import { Sharpness } from "./sharpness.js";
 import { Tracks } from "./tracks.js";
@@ -117,7 +106,9 @@ export class Preview extends EventTarget {
     this.dispatchEvent(new CustomEvent("opening", { detail: robot }));
   }
 
-  get time() { return this.#time; }
+  get time() {
+    return this.#time;
+  }
 
   get info() {
     if (!this.#table) return null;
@@ -126,31 +117,39 @@ export class Preview extends EventTarget {
   }
 
   /** Whether the shown motion has centres of pressure. */
-  get knowsPressure() { return Boolean(this.#marks.overlay?.cop); }
+  get knowsPressure() {
+    return Boolean(this.#marks.overlay?.cop);
+  }
 
   /** What lies on the floor, or null. */
-  get overlay() { return this.#marks.overlay; }
+  get overlay() {
+    return this.#marks.overlay;
+  }
 
   /** Whether the robot is drawn by measured strokes. */
-  get isMeasured() { return this.#measured !== null; }
+  get isMeasured() {
+    return this.#measured !== null;
+  }
 
   /** The client underneath, for tests. */
-  get client() { return this.#client; }
+  get client() {
+    return this.#client;
+  }
 
   ready(timeoutMs = 20000) {
     if (this.#bodyNode || this.route === "server") return Promise.resolve();
     return new Promise((resolve, reject) => {
-      const timer = setTimeout(() => {
-        reject(new Error(`The 3D view did not start within ${timeoutMs / 1000} s. Reload the page.`));
-      }, timeoutMs);
-      this.addEventListener("ready", () => { clearTimeout(timer); resolve(); }, { once: true });
+      const late = new Error(`The 3D view did not start within ${timeoutMs / 1000} s. Reload the page.`);
+      const timer = setTimeout(() => reject(late), timeoutMs);
+      this.addEventListener("ready", resolve, { once: true });
+      this.addEventListener("ready", () => clearTimeout(timer), { once: true });
     });
   }
 
   async loadPoses(source, trouble = []) {
     this.#load += 1;
     const turn = this.#load;
-    const buffer = typeof source === "string" ? await download(source) : source;
+    const buffer = typeof source === "string" ? await downloaded(source) : source;
     if (turn !== this.#load) return null;
     this.#table = new PoseTable(buffer);
     if (this.#table.robot !== this.#robot) this.#open(this.#table.robot);
@@ -249,7 +248,8 @@ export class Preview extends EventTarget {
 
   async drawn() {
     const frame = () => new Promise((resume) => requestAnimationFrame(resume));
-    do await frame(); while (this.#pending || this.#client.busy);
+    do await frame();
+    while (this.#pending || this.#client.busy);
     await frame();
   }
 
@@ -297,7 +297,10 @@ export class Preview extends EventTarget {
 
   #strayed(name, index) {
     const at = this.#client.position(name);
-    return at !== null && at.some((value, axis) => Math.abs(value - this.#shown[index * VALUES_A_NODE + 4 + axis]) > STRAY);
+    return (
+      at !== null
+      && at.some((value, axis) => Math.abs(value - this.#shown[index * VALUES_A_NODE + 4 + axis]) > STRAY)
+    );
   }
 
   #setRoute(route) {
@@ -310,7 +313,11 @@ export class Preview extends EventTarget {
   #request(inFrame = false) {
     if (this.#pending) return;
     if (!document.hidden && !this.#client.busy) this.#showPose(inFrame);
-    else this.#pending = requestAnimationFrame(() => { this.#pending = 0; this.#request(true); });
+    else
+      this.#pending = requestAnimationFrame(() => {
+        this.#pending = 0;
+        this.#request(true);
+      });
   }
 
   #showPose(inFrame) {
@@ -342,7 +349,11 @@ export class Preview extends EventTarget {
 
   /** Marks, ghosts and tracks at the present time. */
   #extras() {
-    const tracks = this.#tracks.messages(this.#time, this.#table?.duration ?? 0, floorOf(this.#marks.overlay));
+    const tracks = this.#tracks.messages(
+      this.#time,
+      this.#table?.duration ?? 0,
+      floorOf(this.#marks.overlay),
+    );
     return [...this.#marks.messages(this.#time), ...this.#ghosts.messages(this.#time), ...tracks];
   }
 
@@ -373,16 +384,13 @@ export class Preview extends EventTarget {
   #pushTheme() {
     this.#client.root?.setAttribute("data-theme", this.#dark ? "dark" : "light");
     if (!this.#bodyNode) return;
-    this.#client.push([visibleMessage("/floor/light", !this.#dark), visibleMessage("/floor/dark", this.#dark)]);
+    this.#client.push([
+      visibleMessage("/floor/light", !this.#dark),
+      visibleMessage("/floor/dark", this.#dark),
+    ]);
   }
 
   #way() {
     return wayOf(this.#client, this.#marks.overlay, this.#table?.nodes ?? [], BODY);
   }
-}
-
-async function download(url) {
-  const answer = await fetch(url);
-  if (!answer.ok) throw new Error(`The poses of this plan could not be loaded (${answer.status}). Reload the page.`);
-  return answer.arrayBuffer();
 }

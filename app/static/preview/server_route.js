@@ -38,8 +38,12 @@ export class ServerRoute {
     const socket = new WebSocket(this.#address);
     this.#socket = socket;
     this.#nodes = null;
-    socket.onopen = () => { this.#waiting = false; };
-    socket.onmessage = () => { this.#waiting = false; };
+    socket.onopen = () => {
+      this.#waiting = false;
+    };
+    socket.onmessage = () => {
+      this.#waiting = false;
+    };
     socket.onclose = () => {
       this.#waiting = true;
       this.#again = setTimeout(() => this.#open(), 2000);

@@ -11,7 +11,7 @@ const LAMP = "/light/lamp";
 /**
  * Messages that turn the shadow on.
  * @param {import("./viser_client.js").ViserClient} client
- * @returns {object[]} none where the client draws in software
+ * @returns {Record<string, any>[]} none where the client draws in software
  */
 export function shadowMessages(client) {
   if (client.drawsInSoftware || !client.node(FLOOR)) return [];

@@ -16,7 +16,8 @@ const RING_PIECES = 20;
 const LEAST_PIECE = 0.0004;
 
 /** "#2e9e5b" as red, green, blue; the client takes colours of single points as linear light. */
-const rgb = (colour) => [1, 3, 5].map((at) => 255 * (Number.parseInt(colour.slice(at, at + 2), 16) / 255) ** 2.2);
+const rgb = (colour) =>
+  [1, 3, 5].map((at) => 255 * (Number.parseInt(colour.slice(at, at + 2), 16) / 255) ** 2.2);
 const UNSEEN = rgb(GREY);
 
 /** The line pieces of a foot's way: [points, colours]; where it was not seen they are grey, and every second one is missing. */
@@ -27,7 +28,12 @@ function pathLine(places, filled, colour, height) {
     const isGap = filled[at - 1] || filled[at];
     const turns = at + 1 < places.length && isGap !== (filled[at] || filled[at + 1]);
     // Feet mostly stand: a piece too short to see is left out.
-    if (!turns && at + 1 < places.length && Math.hypot(places[at][0] - places[from][0], places[at][1] - places[from][1]) < LEAST_PIECE) continue;
+    if (
+      !turns
+      && at + 1 < places.length
+      && Math.hypot(places[at][0] - places[from][0], places[at][1] - places[from][1]) < LEAST_PIECE
+    )
+      continue;
     gaps += isGap ? 1 : 0;
     if (!isGap || gaps % 2) {
       points.push(...places[from], height, ...places[at], height);
@@ -52,7 +58,10 @@ function ringInto(into, start, [x, y], height, isBroken) {
     const length = isBroken && piece % 2 ? 0 : 1;
     const corners = [piece, piece + length].map((corner) => (2 * Math.PI * corner) / RING_PIECES);
     corners.forEach((angle, end) => {
-      into.set([x + RING_RADIUS * Math.cos(angle), y + RING_RADIUS * Math.sin(angle), height], start + 6 * piece + 3 * end);
+      into.set(
+        [x + RING_RADIUS * Math.cos(angle), y + RING_RADIUS * Math.sin(angle), height],
+        start + 6 * piece + 3 * end,
+      );
     });
   }
 }
@@ -71,7 +80,7 @@ export class Tracks {
     this.#client = client;
   }
 
-  /** @param {object[]} tracks of trials; none takes them away */
+  /** @param {Record<string, any>[]} tracks of trials; none takes them away */
   set(tracks) {
     this.#tracks = tracks;
     this.#points = new Float32Array(Math.max(this.#feet.length, 1) * RING_PIECES * 6);
@@ -84,7 +93,16 @@ export class Tracks {
     this.#share = null;
   }
 
-  get #feet() { return this.#tracks.flatMap((track) => track.feet.map((places, foot) => ({ track, places, filled: track.filled[foot], colour: rgb(track.colours[foot]) }))); }
+  get #feet() {
+    return this.#tracks.flatMap((track) =>
+      track.feet.map((places, foot) => ({
+        track,
+        places,
+        filled: track.filled[foot],
+        colour: rgb(track.colours[foot]),
+      })),
+    );
+  }
 
   /**
    * Messages that bring lines and marks up to a time.
@@ -94,7 +112,12 @@ export class Tracks {
    */
   messages(time, duration, floor) {
     const share = duration > 0 ? time / duration : 0;
-    if (!this.#client.node(WAYS) || !this.#client.node(MARKS) || (!this.#isNew && (share === this.#share || !this.#tracks.length))) return [];
+    if (
+      !this.#client.node(WAYS)
+      || !this.#client.node(MARKS)
+      || (!this.#isNew && (share === this.#share || !this.#tracks.length))
+    )
+      return [];
     const messages = this.#isNew ? this.#newMessages(floor + LIFT) : [];
     this.#share = share;
     if (this.#tracks.length) messages.push(...this.#markMessages(share, floor + LIFT));
@@ -107,19 +130,34 @@ export class Tracks {
     if (!this.#tracks.length) return shown;
     const ways = this.#feet.map(({ places, filled, colour }) => pathLine(places, filled, colour, height));
     const [points, colours] = [0, 1].map((index) => ways.flatMap((way) => way[index]));
-    return [this.#client.updateMessage(WAYS, { points: Float32Array.from(points), colors: Uint8Array.from(colours) }), ...shown];
+    return [
+      this.#client.updateMessage(WAYS, {
+        points: Float32Array.from(points),
+        colors: Uint8Array.from(colours),
+      }),
+      ...shown,
+    ];
   }
 
   #markMessages(share, height) {
     this.#feet.forEach(({ track, places, filled }, index) => {
-      const [at, part] = placeIn(track.shares, track.playing[0] + share * (track.playing[1] - track.playing[0]));
+      const [at, part] = placeIn(
+        track.shares,
+        track.playing[0] + share * (track.playing[1] - track.playing[0]),
+      );
       const next = Math.min(at + 1, places.length - 1);
       const place = [0, 1].map((axis) => places[at][axis] * (1 - part) + places[next][axis] * part);
       ringInto(this.#points, index * RING_PIECES * 6, place, height, filled[part < 0.5 ? at : next]);
     });
     this.moves += 1;
     if (!this.#isNew) return this.#client.moveSegments(MARKS, this.#points);
-    const colors = Uint8Array.from(this.#feet.flatMap(({ colour }) => Array(RING_PIECES * 2).fill(colour).flat()));
+    const colors = Uint8Array.from(
+      this.#feet.flatMap(({ colour }) =>
+        Array(RING_PIECES * 2)
+          .fill(colour)
+          .flat(),
+      ),
+    );
     return [this.#client.updateMessage(MARKS, { points: this.#points.slice(), colors })];
   }
 }

@@ -30,10 +30,10 @@ export class ViserClient {
   get #inside() {
     const inside = this.#frame.contentWindow?.__viserMutable;
     const complete =
-      inside &&
-      Array.isArray(inside.messageQueue) &&
-      typeof inside.requestRender === "function" &&
-      typeof inside.nodeRefFromName === "object";
+      inside
+      && Array.isArray(inside.messageQueue)
+      && typeof inside.requestRender === "function"
+      && typeof inside.nodeRefFromName === "object";
     return complete && inside !== this.#left ? inside : null;
   }
 
@@ -44,18 +44,26 @@ export class ViserClient {
   }
 
   /** Whether messages can be pushed. */
-  get available() { return this.#inside !== null; }
+  get available() {
+    return this.#inside !== null;
+  }
 
   /** Whether messages pushed before are still waiting for a frame. */
-  get busy() { return (this.#inside?.messageQueue.length ?? 0) > 0; }
+  get busy() {
+    return (this.#inside?.messageQueue.length ?? 0) > 0;
+  }
 
   /** The drawn object of a scene node, or undefined; a reconnection makes new ones. */
-  node(name) { return this.#inside?.nodeRefFromName[name] ?? undefined; }
+  node(name) {
+    return this.#inside?.nodeRefFromName[name] ?? undefined;
+  }
 
   /** Names of the nodes under a path that are drawn as meshes themselves. */
   meshes(path) {
     const isMesh = (node) => node?.isMesh || node?.children?.some((part) => part.isMesh && !part.name);
-    return Object.entries(this.#inside?.nodeRefFromName ?? {}).filter(([name, node]) => name.startsWith(path) && isMesh(node)).map(([name]) => name);
+    return Object.entries(this.#inside?.nodeRefFromName ?? {})
+      .filter(([name, node]) => name.startsWith(path) && isMesh(node))
+      .map(([name]) => name);
   }
 
   /** Position [x, y, z] of a drawn node, or null. */
@@ -66,7 +74,7 @@ export class ViserClient {
 
   /**
    * Puts messages into the queue and asks for a frame.
-   * @param {object[]} messages
+   * @param {Record<string, any>[]} messages
    * @param {boolean} [atOnce] handles the queue now, so that lines and poses are drawn in one frame and not in two
    */
   push(messages, atOnce = false) {
@@ -84,7 +92,8 @@ export class ViserClient {
    * @returns {boolean} false where it was left to the frame that is asked for: once a frame is enough
    */
   drawNow() {
-    const state = this.drawsInSoftware && !document.hidden ? this.#inside?.scene?.__r3f?.root?.getState?.() : undefined;
+    const state =
+      this.drawsInSoftware && !document.hidden ? this.#inside?.scene?.__r3f?.root?.getState?.() : undefined;
     const frame = document.timeline.currentTime;
     if (!state?.advance || frame === this.#drawnFrame) return false;
     this.#drawnFrame = frame;
@@ -112,11 +121,12 @@ export class ViserClient {
 
   /** Looks before each frame for what the client has made anew since the last one. */
   #drawPlainly(scene) {
-    scene.onBeforeRender = () => scene.traverseVisible((part) => {
-      drawLinePlainly(part);
-      drawSurfacePlainly(part);
-      leaveOutNoPicture(part);
-    });
+    scene.onBeforeRender = () =>
+      scene.traverseVisible((part) => {
+        drawLinePlainly(part);
+        drawSurfacePlainly(part);
+        leaveOutNoPicture(part);
+      });
   }
 
   /** A message that sets properties of a node; arrays become arrays of the client's own window. */
@@ -130,17 +140,21 @@ export class ViserClient {
   /**
    * Moves the ends of a node's line pieces without a message, which would make a new buffer each time.
    * @param {Float32Array} points n × 2 × 3 values
-   * @returns {object[]} the message to be pushed where the buffer is not known, or has another size
+   * @returns {Record<string, any>[]} the message to be pushed where the buffer is not known, or has another size
    */
   moveSegments(name, points) {
     let lines = null;
-    this.node(name)?.traverse(({ geometry }) => { if (geometry?.attributes?.instanceStart) lines ??= geometry; });
+    this.node(name)?.traverse(({ geometry }) => {
+      if (geometry?.attributes?.instanceStart) lines ??= geometry;
+    });
     if (!lines || !moveEnds(lines, points)) return [this.updateMessage(name, { points: points.slice() })];
     return [];
   }
 
   /** Whether the client draws without a GPU (viser_frame.js finds out). */
-  get drawsInSoftware() { return this.#frame.contentWindow?.footfallSoftwareDrawing === true; }
+  get drawsInSoftware() {
+    return this.#frame.contentWindow?.footfallSoftwareDrawing === true;
+  }
 
   /** Draws this many pixels for a pixel of the page each way. */
   setPixelRatio(ratio) {
@@ -151,9 +165,13 @@ export class ViserClient {
   /** Calls back when a hand is on the view: a drag or the wheel. */
   onTouch(callback) {
     for (const type of ["pointerdown", "pointermove", "wheel"]) {
-      this.#frame.contentWindow?.addEventListener(type, (event) => {
-        if (type !== "pointermove" || event.buttons) callback();
-      }, { capture: true, passive: true });
+      this.#frame.contentWindow?.addEventListener(
+        type,
+        (event) => {
+          if (type !== "pointermove" || event.buttons) callback();
+        },
+        { capture: true, passive: true },
+      );
     }
   }
 
@@ -168,7 +186,11 @@ export class ViserClient {
     if (!inside?.camera || !inside.canvas || !root) return null;
     const { left, top, width, height: tall } = inside.canvas.getBoundingClientRect();
     const { projectionMatrix, matrixWorldInverse } = inside.camera;
-    return groundView([projectionMatrix, matrixWorldInverse, root.matrixWorld].map(({ elements }) => elements), height, { left, top, width, height: tall });
+    return groundView(
+      [projectionMatrix, matrixWorldInverse, root.matrixWorld].map(({ elements }) => elements),
+      height,
+      { left, top, width, height: tall },
+    );
   }
 
   /** What the camera sees now: places of the scene in pixels of the frame, and the camera's axes; null where they are not known. */
@@ -178,7 +200,10 @@ export class ViserClient {
     if (!inside?.camera || !inside.canvas || !root) return null;
     const { projectionMatrix, matrixWorldInverse } = inside.camera;
     const size = { width: inside.canvas.clientWidth, height: inside.canvas.clientHeight };
-    return spaceView([projectionMatrix, matrixWorldInverse, root.matrixWorld].map(({ elements }) => elements), size);
+    return spaceView(
+      [projectionMatrix, matrixWorldInverse, root.matrixWorld].map(({ elements }) => elements),
+      size,
+    );
   }
 
   /** Where the camera is going to stand, and what it looks at, [x, y, z] m in the scene; null where it is not known. */
@@ -187,7 +212,8 @@ export class ViserClient {
     const root = this.node("/floor/light")?.parent;
     if (!control?.getPosition || !root) return null;
     const e = root.matrixWorld.elements;
-    const inScene = ({ x, y, z }) => [0, 4, 8].map((column) => e[column] * x + e[column + 1] * y + e[column + 2] * z);
+    const inScene = ({ x, y, z }) =>
+      [0, 4, 8].map((column) => e[column] * x + e[column + 1] * y + e[column + 2] * z);
     return { position: inScene(control.getPosition()), target: inScene(control.getTarget()) };
   }
 
@@ -197,7 +223,10 @@ export class ViserClient {
     if (!control?.setBoundary) return;
     control.maxPolarAngle = LOWEST_VIEW;
     // The client's own y points up.
-    control.setBoundary({ min: { x: -Infinity, y: height, z: -Infinity }, max: { x: Infinity, y: Infinity, z: Infinity } });
+    control.setBoundary({
+      min: { x: -Infinity, y: height, z: -Infinity },
+      max: { x: Infinity, y: Infinity, z: Infinity },
+    });
   }
 
   /** Width and height of what is seen of the frame, px. */
@@ -207,7 +236,9 @@ export class ViserClient {
   }
 
   /** Root element of the client's page. */
-  get root() { return this.#frame.contentDocument?.documentElement ?? null; }
+  get root() {
+    return this.#frame.contentDocument?.documentElement ?? null;
+  }
 }
 
 export const poseMessages = (name, values, at) => [

@@ -11,7 +11,9 @@
  */
 (() => {
   document.hasFocus = () => true;
-  document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches
+    ? "dark"
+    : "light";
 
   const handOver = (event) => {
     event.stopImmediatePropagation();
@@ -39,11 +41,18 @@
     const { theme } = document.documentElement.dataset;
     if (theme === backdrop.theme) return backdrop.bands;
     const style = getComputedStyle(document.documentElement);
-    const ends = ["--backdrop-low", "--backdrop-high"].map((name) => style.getPropertyValue(name).match(/[0-9a-f]{2}/gi)?.map((part) => parseInt(part, 16)));
+    const ends = ["--backdrop-low", "--backdrop-high"].map((name) =>
+      style
+        .getPropertyValue(name)
+        .match(/[0-9a-f]{2}/gi)
+        ?.map((part) => parseInt(part, 16)),
+    );
     if (!ends[0] || !ends[1]) return [];
     // As many as there are steps of eight bits between the two ends.
     const count = 1 + Math.max(...ends[0].map((low, part) => Math.abs(ends[1][part] - low)));
-    const bands = Array.from({ length: count }, (_, band) => ends[0].map((low, part) => (low + ((ends[1][part] - low) * (band + 0.5)) / count) / 255));
+    const bands = Array.from({ length: count }, (_, band) =>
+      ends[0].map((low, part) => (low + ((ends[1][part] - low) * (band + 0.5)) / count) / 255),
+    );
     backdrop = { theme, bands };
     return bands;
   };
@@ -70,7 +79,10 @@
     if (!gl || Object.hasOwn(gl, "clear")) return gl;
     const { clear } = gl;
     gl.clear = (mask) => {
-      const isCanvas = mask & gl.COLOR_BUFFER_BIT && !gl.getParameter(gl.FRAMEBUFFER_BINDING) && !gl.isEnabled(gl.SCISSOR_TEST);
+      const isCanvas =
+        mask & gl.COLOR_BUFFER_BIT
+        && !gl.getParameter(gl.FRAMEBUFFER_BINDING)
+        && !gl.isEnabled(gl.SCISSOR_TEST);
       if (isCanvas) drawBackdrop(gl, clear);
       clear.call(gl, isCanvas ? mask & ~gl.COLOR_BUFFER_BIT : mask);
     };
@@ -82,7 +94,14 @@
     const getContext = HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function lean(kind, options) {
       if (!kind.startsWith("webgl")) return getContext.call(this, kind, options);
-      return withBackdrop(getContext.call(this, kind, { ...options, alpha: false, antialias: false, preserveDrawingBuffer: false }));
+      return withBackdrop(
+        getContext.call(this, kind, {
+          ...options,
+          alpha: false,
+          antialias: false,
+          preserveDrawingBuffer: false,
+        }),
+      );
     };
   }
 })();

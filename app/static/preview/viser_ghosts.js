@@ -10,8 +10,10 @@ import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { visibleMessage } from "./viser_client.js";
 
 const COLOURS = {
-  before: { light: [112, 128, 156], dark: [132, 148, 176] }, saved: { light: [158, 108, 196], dark: [180, 140, 216] },
-  measured: { light: [14, 128, 120], dark: [64, 190, 178] }, jog: { light: [58, 92, 204], dark: [125, 152, 243] },
+  before: { light: [112, 128, 156], dark: [132, 148, 176] },
+  saved: { light: [158, 108, 196], dark: [180, 140, 216] },
+  measured: { light: [14, 128, 120], dark: [64, 190, 178] },
+  jog: { light: [58, 92, 204], dark: [125, 152, 243] },
   simulated: { light: [190, 62, 122], dark: [232, 124, 174] },
 };
 
@@ -60,10 +62,14 @@ class Ghost {
     this.#time = null;
   }
 
-  get table() { return this.#table; }
+  get table() {
+    return this.#table;
+  }
 
   /** The parts' poses at the time that was asked for last. */
-  get pose() { return this.#pose; }
+  get pose() {
+    return this.#pose;
+  }
 }
 
 export class Ghosts {
@@ -118,7 +124,10 @@ export class Ghosts {
     const messages = isNew ? [visibleMessage(name, Boolean(ghost))] : [];
     if (!points) return messages;
     this.moves += 1;
-    if (isNew) messages.push(this.#client.updateMessage(name, { points, colors: Uint8Array.from(COLOURS[kind][this.#theme]) }));
+    if (isNew)
+      messages.push(
+        this.#client.updateMessage(name, { points, colors: Uint8Array.from(COLOURS[kind][this.#theme]) }),
+      );
     else messages.push(...this.#client.moveSegments(name, points));
     return messages;
   }

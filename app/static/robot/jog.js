@@ -28,46 +28,86 @@ const robotOf = ({ view }) => view?.document.robot ?? "deltawalker";
 const answerOf = ({ answer, requested }, key) => (requested === key ? answer : null);
 
 function build(change) {
-  const parts = PARTS.map(([value, text]) => h("button", { text, "aria-pressed": "false", on: { click: () => change({ part: value }) } }));
-  const foot = h("select", { "aria-label": "Foot to jog", on: { change: () => change({ foot: Number(foot.value) }) } });
-  const size = h("input", { type: "number", min: STEP_MM.least, max: STEP_MM.most, step: "0.1", value: STEP_MM.first, "aria-label": "Jog step" });
+  const parts = PARTS.map(([value, text]) =>
+    h("button", { text, "aria-pressed": "false", on: { click: () => change({ part: value }) } }),
+  );
+  const foot = h("select", {
+    "aria-label": "Foot to jog",
+    on: { change: () => change({ foot: Number(foot.value) }) },
+  });
+  const size = h("input", {
+    type: "number",
+    min: STEP_MM.least,
+    max: STEP_MM.most,
+    step: "0.1",
+    value: STEP_MM.first,
+    "aria-label": "Jog step",
+  });
   return {
-    parts, foot, size,
+    parts,
+    foot,
+    size,
     findings: h("ul", { class: "jog-findings" }),
-    target: h("p", { class: "why" }), why: h("p", { class: "why" }),
-    move: h("button", { class: "primary", text: "Move", "data-robot": true }), back: h("button", { text: "Target to present pose" }),
+    target: h("p", { class: "why" }),
+    why: h("p", { class: "why" }),
+    move: h("button", { class: "primary", text: "Move", "data-robot": true }),
+    back: h("button", { text: "Target to present pose" }),
   };
 }
 
 function choiceRow({ parts, foot, size }) {
-  return h("div", { class: "jog-choice" }, h("div", { class: "jog-parts", role: "group", "aria-label": "What to jog" }, ...parts), foot,
-    h("label", { title: "The buttons − and + move the target by this step, "
-      + `${STEP_MM.least} to ${STEP_MM.most} mm` },
-      h("span", { text: "Step" }), h("span", { class: "box", data: { unit: "mm" } }, size)));
+  return h(
+    "div",
+    { class: "jog-choice" },
+    h("div", { class: "jog-parts", role: "group", "aria-label": "What to jog" }, ...parts),
+    foot,
+    h(
+      "label",
+      {
+        title:
+          "The buttons − and + move the target by this step, " + `${STEP_MM.least} to ${STEP_MM.most} mm`,
+      },
+      h("span", { text: "Step" }),
+      h("span", { class: "box", data: { unit: "mm" } }, size),
+    ),
+  );
 }
 
 function showChoice({ parts, foot }, { part, foot: chosen }, feet) {
   parts.forEach((button, index) => button.setAttribute("aria-pressed", String(PARTS[index][0] === part)));
-  if (foot.options.length !== feet) foot.replaceChildren(...Array.from({ length: feet }, (_, index) => h("option", { value: String(index + 1), text: `Foot ${index + 1}` })));
+  if (foot.options.length !== feet)
+    foot.replaceChildren(
+      ...Array.from({ length: feet }, (_, index) =>
+        h("option", { value: String(index + 1), text: `Foot ${index + 1}` }),
+      ),
+    );
   foot.value = String(chosen);
   foot.hidden = part === "body";
 }
 
-function targetText({ wired, moves, seconds: takes, stop_seconds: stop, margin_mm: margin, from, residual_mm: residual }, steps) {
+function targetText(
+  { wired, moves, seconds: takes, stop_seconds: stop, margin_mm: margin, from, residual_mm: residual },
+  steps,
+) {
   if (!steps.length) return BEGINS[from] ?? "";
   const off = Math.max(0, ...(residual ?? []).map(Math.abs));
   if (!wired) {
-    return "This program cannot move this robot, so only the 3D preview shows the target. "
+    return (
+      "This program cannot move this robot, so only the 3D preview shows the target. "
       + "The motors are coupled, so the achievable strokes differ from your target by up to "
-      + `${fixed(off)} mm.`;
+      + `${fixed(off)} mm.`
+    );
   }
   if (!moves) return "";
   const balance = margin === null ? "" : ` Margin ${fixed(margin)} mm.`;
-  return `${counted(moves, "move")}, about ${seconds(takes)} s. `
-    + `Stop acts within ${seconds(stop)} s.${balance}`;
+  return (
+    `${counted(moves, "move")}, about ${seconds(takes)} s. `
+    + `Stop acts within ${seconds(stop)} s.${balance}`
+  );
 }
 
-const findingRow = ({ severity, sentence }) => h("li", { data: { toneText: severity === "error" ? "bad" : "caution" }, text: sentence });
+const findingRow = ({ severity, sentence }) =>
+  h("li", { data: { toneText: severity === "error" ? "bad" : "caution" }, text: sentence });
 
 /** Why nothing can be moved now; null where Move may be pressed. */
 function whyNotMove({ robot }, answer) {
@@ -103,7 +143,15 @@ function moving(store, own, body) {
  * @returns {HTMLElement}
  */
 export function jogPart(store, edits) {
-  const own = watchable({ isOpen: false, part: "foot", foot: 1, steps: [], size: STEP_MM.first, requested: null, answer: null });
+  const own = watchable({
+    isOpen: false,
+    part: "foot",
+    foot: 1,
+    steps: [],
+    size: STEP_MM.first,
+    requested: null,
+    answer: null,
+  });
   const { size, ...parts } = build((patch) => own.set(patch));
   const rows = jogRows((index, sign) => {
     const { state } = own;
@@ -112,24 +160,52 @@ export function jogPart(store, edits) {
   const body = () => ({ robot: robotOf(store.state), steps: own.state.steps });
   const ask = asking(own);
   let sent = null;
-  const element = h("details", { class: "more jog", role: "group", "aria-label": "Jog" },
+  const element = h(
+    "details",
+    { class: "more jog", role: "group", "aria-label": "Jog" },
     h("summary", { text: "Jog: move a motor, a foot or the body in small steps" }),
-    h("div", {}, choiceRow({ ...parts, size }), rows.element, h("div", { role: "status", "aria-label": "Jog findings" }, parts.findings), parts.target,
-      h("div", { class: "buttons" }, parts.move, parts.back), parts.why, poseToSegment(store, edits)));
+    h(
+      "div",
+      {},
+      choiceRow({ ...parts, size }),
+      rows.element,
+      h("div", { role: "status", "aria-label": "Jog findings" }, parts.findings),
+      parts.target,
+      h("div", { class: "buttons" }, parts.move, parts.back),
+      parts.why,
+      poseToSegment(store, edits),
+    ),
+  );
 
   element.addEventListener("toggle", () => own.set({ isOpen: element.open }));
   size.addEventListener("change", () => {
     const requested = Number(size.value);
     if (requested >= STEP_MM.least && requested <= STEP_MM.most) own.set({ size: requested });
-    else toast(`Enter a step between ${STEP_MM.least} and ${STEP_MM.most} mm. `
-      + `The step stays at ${own.state.size} mm.`);
+    else
+      toast(
+        `Enter a step between ${STEP_MM.least} and ${STEP_MM.most} mm. `
+          + `The step stays at ${own.state.size} mm.`,
+      );
     size.value = String(own.state.size);
   });
   onPress(parts.move, moving(store, own, body), (why) => toast(why));
-  onPress(parts.back, () => own.set({ steps: [] }), (why) => toast(why));
+  onPress(
+    parts.back,
+    () => own.set({ steps: [] }),
+    (why) => toast(why),
+  );
 
   /** Everything that an answer depends on; strokes to a tenth of a millimetre, which no motor shakes by. */
-  const keyOf = ({ robot, view }, { part, foot, steps }) => JSON.stringify([robotOf({ view }), part, foot, steps, robot?.robot, robot?.link, robot?.strokes_mm?.map((one) => one.toFixed(1))]);
+  const keyOf = ({ robot, view }, { part, foot, steps }) =>
+    JSON.stringify([
+      robotOf({ view }),
+      part,
+      foot,
+      steps,
+      robot?.robot,
+      robot?.link,
+      robot?.strokes_mm?.map((one) => one.toFixed(1)),
+    ]);
 
   function show() {
     const [state, now] = [store.state, own.state];
@@ -137,7 +213,8 @@ export function jogPart(store, edits) {
     if (now.foot > feet) return own.set({ foot: 1 });
     if (!now.isOpen) return state.jog && store.set({ jog: null });
     const key = keyOf(state, now);
-    if (now.requested !== key && key !== sent) ask({ key, body: { ...body(), look: { part: now.part, foot: now.foot } } });
+    if (now.requested !== key && key !== sent)
+      ask({ key, body: { ...body(), look: { part: now.part, foot: now.foot } } });
     sent = key;
     const answer = answerOf(now, key);
     showChoice(parts, now, feet);
@@ -149,8 +226,11 @@ export function jogPart(store, edits) {
       setText(parts.target, answer ? targetText(answer, now.steps) : "");
       setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
     }
-    setAllowed(parts.back, now.steps.length ? null : "The target is already the present pose of the robot.",
-      "Set the target back to the present pose of the robot. The robot does not move");
+    setAllowed(
+      parts.back,
+      now.steps.length ? null : "The target is already the present pose of the robot.",
+      "Set the target back to the present pose of the robot. The robot does not move",
+    );
     const { target_mm: pose = null, wired = false } = answer ?? now.answer ?? {};
     store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null, wired } });
     return undefined;
@@ -161,21 +241,27 @@ export function jogPart(store, edits) {
   return element;
 }
 
-const HELP = "Add a segment to the end of the segment table. In this segment every foot moves to the target. "
+const HELP =
+  "Add a segment to the end of the segment table. In this segment every foot moves to the target. "
   + "Without a target, every foot moves to the present pose";
 
 /** Why the pose cannot be taken; null where it can. */
 function whyNot(state) {
   const document = shownDocument(state);
   if (!document) return "No gait is selected.";
-  if (isSequence(document)) return "A sequence has no segment table. Choose one of the gaits in the sequence.";
+  if (isSequence(document))
+    return "A sequence has no segment table. Choose one of the gaits in the sequence.";
   if (!document.segment_table) {
-    return "This gait has no segment table. "
-      + "Make a table in the view Segments, or choose a gait of the group By hand.";
+    return (
+      "This gait has no segment table. "
+      + "Make a table in the view Segments, or choose a gait of the group By hand."
+    );
   }
   if (segmentDraftOf(state).steps.length) {
-    return "Some segments of the segment table do not fit together. "
-      + "Repair the table in the view Segments first.";
+    return (
+      "Some segments of the segment table do not fit together. "
+      + "Repair the table in the view Segments first."
+    );
   }
   return state.jog?.pose_mm ? null : "The robot cannot reach the target. Choose another target.";
 }
@@ -185,13 +271,19 @@ function poseToSegment(store, edits) {
   const button = h("button", { class: "wide", text: "Take this pose as a waypoint" });
   const take = attempt(async () => {
     const [document, { selected: gait }] = [shownDocument(store.state), store.state];
-    const { table, name, segment, sentences } = await api.poseTable({ document, strokes_mm: store.state.jog.pose_mm });
+    const { table, name, segment, sentences } = await api.poseTable({
+      document,
+      strokes_mm: store.state.jog.pose_mm,
+    });
     const label = `Add ${name} as segment ${segment}`;
     edits.edit((now) => ({ ...now, segment_table: table }), label, { drawing: true, gait });
     const added = `“${name}” was added to the segment table as segment ${segment}.`;
     toast([added, ...sentences].join(" "), { of: "studio" });
   });
   onPress(button, take, (why) => toast(why));
-  store.watch((state) => [state.view, state.pending, state.gesture, state.segmentDrafts, state.jog], (state) => setAllowed(button, whyNot(state), HELP));
+  store.watch(
+    (state) => [state.view, state.pending, state.gesture, state.segmentDrafts, state.jog],
+    (state) => setAllowed(button, whyNot(state), HELP),
+  );
   return button;
 }

@@ -34,8 +34,7 @@ function whyNot(handle, row, by) {
   const [least, most] = [row.least_mm - row.target_mm, row.most_mm - row.target_mm];
   if (by >= least - ROUNDING_MM && by <= most + ROUNDING_MM) return null;
   const range = `${fixed(least)} to ${fixed(most)} mm`;
-  return `${handleName(handle)}: you can change the target by ${range}. `
-    + "Choose a shorter step.";
+  return `${handleName(handle)}: you can change the target by ${range}. ` + "Choose a shorter step.";
 }
 
 /**
@@ -52,16 +51,30 @@ function jogRow(step) {
     element,
     show(handle, row, size) {
       setText(name, shortName(handle));
-      for (const [button, sign, word] of [[less, -1, "minus"], [more, 1, "plus"]]) {
+      for (const [button, sign, word] of [
+        [less, -1, "minus"],
+        [more, 1, "plus"],
+      ]) {
         setAttribute(button, "aria-label", `${handleName(handle)} ${word}`);
-        const help = `${handleName(handle)}: change the target by ${fixed(sign * size)} mm. `
+        const help =
+          `${handleName(handle)}: change the target by ${fixed(sign * size)} mm. `
           + "The robot does not move yet";
         setAllowed(button, whyNot(handle, row, sign * size), help);
       }
       const isMoved = row && Math.abs(row.target_mm - row.start_mm) > ROUNDING_MM;
       setText(number, row ? `${isMoved ? `${fixed(row.start_mm)} → ` : ""}${fixed(row.target_mm)} mm` : "–");
-      setAttribute(bar.element, "aria-label", row ? `${handleName(handle)}: target ${fixed(row.target_mm)} mm, range ${fixed(row.least_mm)} to ${fixed(row.most_mm)} mm` : handleName(handle));
-      setAttribute(bar.element, "title", row ? `Range ${fixed(row.least_mm)} to ${fixed(row.most_mm)} mm` : null);
+      setAttribute(
+        bar.element,
+        "aria-label",
+        row
+          ? `${handleName(handle)}: target ${fixed(row.target_mm)} mm, range ${fixed(row.least_mm)} to ${fixed(row.most_mm)} mm`
+          : handleName(handle),
+      );
+      setAttribute(
+        bar.element,
+        "title",
+        row ? `Range ${fixed(row.least_mm)} to ${fixed(row.most_mm)} mm` : null,
+      );
       if (row) place(bar, row);
     },
   };
@@ -72,6 +85,7 @@ export function jogRows(step) {
   const rows = [0, 1, 2].map((index) => jogRow((sign) => step(index, sign)));
   return {
     element: h("div", { class: "jog-rows" }, ...rows.map(({ element }) => element)),
-    show: (handles, known, size) => rows.forEach((row, index) => row.show(handles[index], known?.[index] ?? null, size)),
+    show: (handles, known, size) =>
+      rows.forEach((row, index) => row.show(handles[index], known?.[index] ?? null, size)),
   };
 }

@@ -1,7 +1,11 @@
 /** Steps by hand as the page keeps them: what can be stepped, and steps of the same thing added up. */
 
 /** What can be moved, with its name. */
-export const PARTS = [["motor", "Motor"], ["foot", "Foot"], ["body", "Body"]];
+export const PARTS = [
+  ["motor", "Motor"],
+  ["foot", "Foot"],
+  ["body", "Body"],
+];
 
 /** Longest single step, mm. */
 const LONGEST_MM = 20;
@@ -22,7 +26,9 @@ export function withStep(steps, handle, by) {
   const before = steps.find((one) => isOf(one, handle) && Math.abs(one.by_mm + by) <= LONGEST_MM);
   if (!before) return [...steps, { ...handle, by_mm: by }];
   const sum = before.by_mm + by;
-  return steps.flatMap((one) => (one !== before ? [one] : Math.abs(sum) < NOTHING_MM ? [] : [{ ...one, by_mm: sum }]));
+  return steps.flatMap((one) =>
+    one !== before ? [one] : Math.abs(sum) < NOTHING_MM ? [] : [{ ...one, by_mm: sum }],
+  );
 }
 
 /** A name for a person: "Foot 2, x", "Motor 3 of foot 2", "Body, height". */

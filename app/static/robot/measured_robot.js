@@ -10,7 +10,8 @@ import { GREY, greyOf, isStuck } from "../state/worked_plan.js";
 const TICK_MS = 200;
 
 /** Whether the robot walks the gait that is shown. */
-const isShown = ({ robot, selected, connected }) => connected && planIsOn(robot) && robot.run.phase === "streaming" && robot.run.gait === selected;
+const isShown = ({ robot, selected, connected }) =>
+  connected && planIsOn(robot) && robot.run.phase === "streaming" && robot.run.gait === selected;
 
 /** Follows the robot. */
 export function mountMeasuredRobot(store, preview) {
@@ -24,8 +25,26 @@ export function mountMeasuredRobot(store, preview) {
     badge.toggleAttribute("data-measured", isMeasured);
     const isBad = !isMeasured && isStuck(store.state);
     badge.toggleAttribute("data-bad", isBad);
-    setText(word, isMeasured ? "Robot, measured" : store.state.iterate ? (store.state.iterate.pattern ? "Pattern" : "An iteration") : isBad ? "No motion" : "Plan");
-    setText(age, isMeasured ? `${fixed((performance.now() - measuredAt) / 1000)} s ago` : isBad ? (GREY[greyOf(store.state)]?.stage ?? "") : "");
+    setText(
+      word,
+      isMeasured
+        ? "Robot, measured"
+        : store.state.iterate
+          ? store.state.iterate.pattern
+            ? "Pattern"
+            : "An iteration"
+          : isBad
+            ? "No motion"
+            : "Plan",
+    );
+    setText(
+      age,
+      isMeasured
+        ? `${fixed((performance.now() - measuredAt) / 1000)} s ago`
+        : isBad
+          ? (GREY[greyOf(store.state)]?.stage ?? "")
+          : "",
+    );
   }
 
   const offer = latestOnly(async (at) => {
@@ -41,14 +60,19 @@ export function mountMeasuredRobot(store, preview) {
     show();
   });
 
-  store.watch((state) => [isShown(state), state.robot?.strokes_mm, state.robot?.run?.reached], (state) => {
-    if (isShown(state) && state.robot.strokes_mm) offer(performance.now());
-    else if (measuredAt !== null) {
-      measuredAt = null;
-      preview.setMeasured(null);
-      show();
-    }
-  });
+  store.watch(
+    (state) => [isShown(state), state.robot?.strokes_mm, state.robot?.run?.reached],
+    (state) => {
+      if (isShown(state) && state.robot.strokes_mm) offer(performance.now());
+      else if (measuredAt !== null) {
+        measuredAt = null;
+        preview.setMeasured(null);
+        show();
+      }
+    },
+  );
   store.watch((state) => [state.iterate, isStuck(state), greyOf(state)], show);
-  setInterval(() => { if (measuredAt !== null) show(); }, TICK_MS);
+  setInterval(() => {
+    if (measuredAt !== null) show();
+  }, TICK_MS);
 }

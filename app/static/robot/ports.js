@@ -12,15 +12,27 @@ const POLL_MS = 2000;
 const shortName = (device) => device.replace(/^\/dev\//, "");
 
 function portName({ device, description, serial_number: number }, last) {
-  const detail = [description, number ? `no. ${number}` : null, last?.device === device ? "last used" : null].filter(Boolean);
+  const detail = [
+    description,
+    number ? `no. ${number}` : null,
+    last?.device === device ? "last used" : null,
+  ].filter(Boolean);
   return [shortName(device), ...detail].join(" · ");
 }
 
 /** What can be chosen: value and text of each option. */
 function choices({ ports, last }, device) {
   const known = ports.map((port) => [port.device, portName(port, last)]);
-  const extra = [device, last?.device].filter((one, index, all) => one && one !== EMULATOR && all.indexOf(one) === index && !ports.some((port) => port.device === one));
-  return [[EMULATOR, "Emulated robot"], ...known, ...extra.map((one) => [one, `${shortName(one)}${one === last?.device ? " · last used" : ""}`]), [OTHER, "Another device or address…"]];
+  const extra = [device, last?.device].filter(
+    (one, index, all) =>
+      one && one !== EMULATOR && all.indexOf(one) === index && !ports.some((port) => port.device === one),
+  );
+  return [
+    [EMULATOR, "Emulated robot"],
+    ...known,
+    ...extra.map((one) => [one, `${shortName(one)}${one === last?.device ? " · last used" : ""}`]),
+    [OTHER, "Another device or address…"],
+  ];
 }
 
 /**
@@ -33,11 +45,20 @@ export function portChooser(store, connect) {
   const select = h("select", { "aria-label": "Device" });
   const title = "Enter a serial device such as /dev/ttyACM0, or a network address socket://HOST:PORT";
   const address = h("input", {
-    "aria-label": "Address", title, placeholder: "/dev/… or socket://HOST:PORT",
-    spellcheck: "false", autocomplete: "off", hidden: true,
+    "aria-label": "Address",
+    title,
+    placeholder: "/dev/… or socket://HOST:PORT",
+    spellcheck: "false",
+    autocomplete: "off",
+    hidden: true,
   });
   const [words, again] = [h("span"), h("button", { text: "Connect there" })];
-  const offer = h("div", { class: "offer", role: "status", "aria-label": "Where the robot is now", hidden: true }, words, again);
+  const offer = h(
+    "div",
+    { class: "offer", role: "status", "aria-label": "Where the robot is now", hidden: true },
+    words,
+    again,
+  );
   let found = { ports: [], last: null, again: null };
   let chosen = null;
   let timer = null;
@@ -75,22 +96,27 @@ export function portChooser(store, connect) {
     choose(select.value);
     if (chosen === OTHER) address.focus();
   });
-  address.addEventListener("keydown", (event) => { if (event.key === "Enter") connect(); });
+  address.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") connect();
+  });
   onPress(again, () => {
     choose(found.again.device);
     connect();
   });
-  store.watch(({ robot }) => [robot?.device, robot?.link], ({ robot }) => {
-    const fixed = ["ready", "connecting"].includes(robot?.link);
-    if (fixed) chosen = null;
-    select.disabled = fixed;
-    const title = fixed ? "Disconnect before you choose another robot" : "Choose the robot to connect";
-    setAttribute(select, "title", title);
-    clearInterval(timer);
-    timer = robot?.link === "lost" ? setInterval(poll, POLL_MS) : null;
-    render();
-    if (robot && !fixed) poll();
-  });
+  store.watch(
+    ({ robot }) => [robot?.device, robot?.link],
+    ({ robot }) => {
+      const fixed = ["ready", "connecting"].includes(robot?.link);
+      if (fixed) chosen = null;
+      select.disabled = fixed;
+      const title = fixed ? "Disconnect before you choose another robot" : "Choose the robot to connect";
+      setAttribute(select, "title", title);
+      clearInterval(timer);
+      timer = robot?.link === "lost" ? setInterval(poll, POLL_MS) : null;
+      render();
+      if (robot && !fixed) poll();
+    },
+  );
   return {
     element: h("div", { class: "device-choice" }, select, address),
     offer,

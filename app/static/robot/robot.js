@@ -22,14 +22,16 @@ import { isOfRunRange, runRangeOf, runRangePart } from "./run_range.js";
 import { sendControl } from "./send.js";
 import { strokeBars } from "./strokes.js";
 
-const CONNECT_WARNING = "Connecting resets the robot's board. The motors may move for about 8 s. "
-  + "Keep your hands away.";
+const CONNECT_WARNING =
+  "Connecting resets the robot's board. The motors may move for about 8 s. " + "Keep your hands away.";
 
 const bound = (limit) => (limit === null || limit === undefined ? "a few seconds" : `${seconds(limit)} s`);
 
 /** Stop's worst case, in one short figure. */
-const stopSentence = (limit) => `Stop takes effect within ${bound(limit)}. The power switch is the emergency stop.`;
-const STOP_HELP = "The studio sends Stop over the cable. The robot first finishes its present move. "
+const stopSentence = (limit) =>
+  `Stop takes effect within ${bound(limit)}. The power switch is the emergency stop.`;
+const STOP_HELP =
+  "The studio sends Stop over the cable. The robot first finishes its present move. "
   + "The time shown is the longest time until the robot stops.";
 const CLEAR_HELP = "Confirm that you have seen the stop or the fault. This button does not move the robot";
 
@@ -43,7 +45,15 @@ function act(store, verb, extra = () => ({})) {
 function robotButton(store, text, verb, options = {}) {
   const button = h("button", { text, "data-robot": true });
   onPress(button, options.act ?? act(store, verb, options.extra), (why) => toast(why, { of: "studio" }));
-  return { button, allow: (robot) => setAllowed(button, robot ? (whyNotHeld(robot) ?? robot.allowed?.[verb]) : "The studio has not answered yet.", options.help) };
+  return {
+    button,
+    allow: (robot) =>
+      setAllowed(
+        button,
+        robot ? (whyNotHeld(robot) ?? robot.allowed?.[verb]) : "The studio has not answered yet.",
+        options.help,
+      ),
+  };
 }
 
 function way(step, ...children) {
@@ -53,9 +63,11 @@ function way(step, ...children) {
 /** Why the check names another time for Stop; null where it names the same. */
 function checkedStopText({ stop_seconds: stop, checked_stop_seconds: checked, scan_seconds: scan }) {
   if (seconds(stop) === seconds(checked)) return null;
-  const why = scan === null ? "Check counts all waypoints of the plan."
-    : "Check assumes the slowest error scan of the firmware. "
-      + `This robot's error scan took ${seconds(scan)} s.`;
+  const why =
+    scan === null
+      ? "Check counts all waypoints of the plan."
+      : "Check assumes the slowest error scan of the firmware. "
+        + `This robot's error scan took ${seconds(scan)} s.`;
   return `The step Check shows ${seconds(checked)} s for Stop, because ${why}`;
 }
 
@@ -64,7 +76,9 @@ function summaryRows({ runSummary: run, view, selected }) {
   if (!run || run.gait !== selected || !view) return [];
   const row = (name, value, options = {}) => [h("dt", { text: name }), h("dd", { text: value, ...options })];
   const isKnown = run.start_distance_mm !== null && run.start_distance_mm !== undefined;
-  const moves = run.start_moves ? `, ${counted(run.start_moves, "move")}${run.start_seconds ? `, ${fixed(run.start_seconds, 0)} s` : ""}` : "";
+  const moves = run.start_moves
+    ? `, ${counted(run.start_moves, "move")}${run.start_seconds ? `, ${fixed(run.start_seconds, 0)} s` : ""}`
+    : "";
   const checked = checkedStopText(run);
   return [
     ...row("Gait", view.document.name),
@@ -79,25 +93,47 @@ function summaryRows({ runSummary: run, view, selected }) {
 
 function build(store) {
   const ports = portChooser(store, () => connect.button.click());
-  const connect = robotButton(store, "Connect", "connect", { extra: () => ({ device: ports.value() }), help: CONNECT_WARNING });
+  const connect = robotButton(store, "Connect", "connect", {
+    extra: () => ({ device: ports.value() }),
+    help: CONNECT_WARNING,
+  });
   const reset = attempt(async () => {
-    if (await confirmAction("Reset the robot?", "Reset moves all 12 motors to 0.5 mm, at full speed and at the same time.", "Move all motors to 0.5 mm")) await act(store, "reset")();
+    if (
+      await confirmAction(
+        "Reset the robot?",
+        "Reset moves all 12 motors to 0.5 mm, at full speed and at the same time.",
+        "Move all motors to 0.5 mm",
+      )
+    )
+      await act(store, "reset")();
   });
   const arm = attempt(async () => {
     if (await needOperator(store, "All users see who has armed the robot.")) await act(store, "arm")();
   });
   return {
-    ports, connect,
-    dot: h("span", { class: "dot" }), word: h("b"), sentence: h("p"),
+    ports,
+    connect,
+    dot: h("span", { class: "dot" }),
+    word: h("b"),
+    sentence: h("p"),
     disconnect: robotButton(store, "Disconnect", "disconnect"),
     arm: robotButton(store, "Arm", "arm", { act: arm, help: "Allow the studio to move this robot" }),
     clear: robotButton(store, "Clear", "clear", { help: CLEAR_HELP }),
-    reset: robotButton(store, "Reset", "reset", { act: reset, help: "Move all motors to 0.5 mm at full speed" }),
-    armed: h("span"), connectNote: h("p", { class: "why" }), armNote: h("p", { class: "why" }), sendNote: h("p", { class: "why" }),
+    reset: robotButton(store, "Reset", "reset", {
+      act: reset,
+      help: "Move all motors to 0.5 mm at full speed",
+    }),
+    armed: h("span"),
+    connectNote: h("p", { class: "why" }),
+    armNote: h("p", { class: "why" }),
+    sendNote: h("p", { class: "why" }),
     summary: h("dl", { class: "summary" }),
     last: h("p", { class: "why number" }),
     runs: h("button", {
-      class: "link", text: "Open Runs", title: "Show all recorded runs. You can compare two runs", hidden: true,
+      class: "link",
+      text: "Open Runs",
+      title: "Show all recorded runs. You can compare two runs",
+      hidden: true,
       on: { click: () => openDrawer("runs") },
     }),
     record: h("p", { class: "why", role: "status", "aria-label": "Record", data: { toneText: "caution" } }),
@@ -107,25 +143,46 @@ function build(store) {
 }
 
 function assemble({ store, edits, playback }, parts, send) {
-  const connect = way(1, parts.ports.offer, h("div", { class: "device" }, parts.ports.element, parts.disconnect.button), parts.connectNote);
+  const connect = way(
+    1,
+    parts.ports.offer,
+    h("div", { class: "device" }, parts.ports.element, parts.disconnect.button),
+    parts.connectNote,
+  );
   const arm = way(2, h("div", { class: "buttons" }, parts.armed, parts.reset.button), parts.armNote);
   const start = way(3, parts.summary, runRangePart(store, playback));
-  const before = h("div", { class: "before-run" }, h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), parts.last, parts.runs,
-    h("ol", { class: "steps", role: "list", "aria-label": "Steps to a run" }, connect, arm, start));
+  const before = h(
+    "div",
+    { class: "before-run" },
+    h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence),
+    parts.last,
+    parts.runs,
+    h("ol", { class: "steps", role: "list", "aria-label": "Steps to a run" }, connect, arm, start),
+  );
   const key = h("span", { text: "bar: measured, line: target, in mm" });
   const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", key), parts.bars.element);
   const jog = jogPart(store, edits);
   const more = h("div", { class: "after-run" }, jog, robotFaults(store));
   const above = [leasePart(store), before, runningPart(store), parts.record, strokes];
   byId("robot").append(...above, more, robotLog(store));
-  keepPlace(above, () => more.offsetTop, () => jog.contains(document.activeElement) || jog.matches(":hover"));
+  keepPlace(
+    above,
+    () => more.offsetTop,
+    () => jog.contains(document.activeElement) || jog.matches(":hover"),
+  );
   const acts = h("div", { class: "solve" }, parts.connect.button, parts.clear.button, parts.arm.button);
-  byId("foot-run").append(h("div", { class: "before-run" }, acts, send.element, parts.sendNote), parts.stopText);
+  byId("foot-run").append(
+    h("div", { class: "before-run" }, acts, send.element, parts.sendNote),
+    parts.stopText,
+  );
   return { connect, arm, start };
 }
 
 /** Whether the last run, of the shown waypoints, came to its end. */
-const hasRun = ({ robot, selected, view }) => robot?.robot === "done" && robot.run?.gait === selected && robot.run.waypoints_hash === view?.plan?.waypoints_hash;
+const hasRun = ({ robot, selected, view }) =>
+  robot?.robot === "done"
+  && robot.run?.gait === selected
+  && robot.run.waypoints_hash === view?.plan?.waypoints_hash;
 
 function showSteps(parts, ways, state) {
   const { robot } = state;
@@ -151,14 +208,28 @@ function showRobot(parts, ways, state) {
   parts.dot.dataset.tone = robotTone(robot);
   setText(parts.word, robot ? `${robot.robot}${robot.emulated ? " · emulated robot" : ""}` : "unknown");
   const before = robot?.previous_run;
-  const broken = !ready && before?.state === "interrupted"
-    ? `The last run was interrupted. Its gait was “${before.gait_name}”. ${before.sentence}` : null;
-  setText(parts.sentence, [robot?.sentence, broken, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${capital(robot.stop_text)}.` : null].filter(Boolean).join(" "));
+  const broken =
+    !ready && before?.state === "interrupted"
+      ? `The last run was interrupted. Its gait was “${before.gait_name}”. ${before.sentence}`
+      : null;
+  setText(
+    parts.sentence,
+    [
+      robot?.sentence,
+      broken,
+      robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${capital(robot.stop_text)}.` : null,
+    ]
+      .filter(Boolean)
+      .join(" "),
+  );
   for (const name of ["connect", "disconnect", "arm", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
   parts.disconnect.button.hidden = !ready;
   setText(parts.connectNote, ready ? (robot.link === "connecting" ? CONNECT_WARNING : "") : CONNECT_WARNING);
-  setText(parts.armNote, ready && !on ? (whyNotHeld(robot) ?? (robot.robot === "armed" ? "" : robot.allowed?.arm ?? "")) : "");
+  setText(
+    parts.armNote,
+    ready && !on ? (whyNotHeld(robot) ?? (robot.robot === "armed" ? "" : (robot.allowed?.arm ?? ""))) : "",
+  );
   setText(parts.last, lastRun(robot));
   parts.runs.hidden = !lastRun(robot);
   parts.clear.button.hidden = robot?.allowed?.clear !== null;
@@ -173,8 +244,10 @@ function lastRun(robot) {
   const [run, before] = [robot?.run, robot?.previous_run];
   const name = (gait) => `Last run${gait ? ` of “${gait}”` : ""}`;
   if (run) {
-    return `${name(run.gait_name)}: ${run.reached} of ${run.count} waypoints reached `
-      + `in ${seconds(run.elapsed)} s, including the moves to the start pose.`;
+    return (
+      `${name(run.gait_name)}: ${run.reached} of ${run.count} waypoints reached `
+      + `in ${seconds(run.elapsed)} s, including the moves to the start pose.`
+    );
   }
   return before ? `${name(before.gait_name)}: ${before.state}.` : "";
 }
@@ -184,33 +257,48 @@ const NO_SUMMARY = "The summary of this run is not ready yet. Wait until the pag
 function whyNotSend(state) {
   const { robot, view, runSummary, connected } = state;
   if (!connected) return "The studio does not answer.";
-  if (runSummary?.unwired && runSummary.waypoints_hash === view?.plan?.waypoints_hash) return runSummary.unwired;
+  if (runSummary?.unwired && runSummary.waypoints_hash === view?.plan?.waypoints_hash)
+    return runSummary.unwired;
   if (!robot) return "The studio has not answered yet.";
   if (!view?.approval) return "Check and approve the gait first.";
   if (whyNotHeld(robot)) return whyNotHeld(robot);
   if (robot.allowed?.send) return robot.allowed.send;
-  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash
-    || !isOfRunRange(runSummary, state)) return NO_SUMMARY;
+  if (
+    !runSummary
+    || runSummary.waypoints_hash !== view.approval.waypoints_hash
+    || !isOfRunRange(runSummary, state)
+  )
+    return NO_SUMMARY;
   return runSummary.reason ?? null;
 }
 
 /** Keeps the summary of what would be sent that of the shown plan. */
 function followSummary(store) {
   const begin = ticket();
-  store.watch(({ selected, view, robot, runRange }) => [selected, runRange, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], async (state) => {
-    const isOld = begin();
-    const { selected, view } = state;
-    if (!selected || !view?.plan || view.plan.refusal) return store.set({ runSummary: null });
-    try {
-      const summary = await api.run(selected, runRangeOf(state));
-      if (!isOld()) store.set({ runSummary: { ...summary, gait: selected } });
-    } catch (error) {
-      if (isOld()) return undefined;
-      store.set({ runSummary: null });
-      if (error.status !== 409 && error.status !== 422) report(error);
-    }
-    return undefined;
-  });
+  store.watch(
+    ({ selected, view, robot, runRange }) => [
+      selected,
+      runRange,
+      view?.plan?.waypoints_hash,
+      view?.approval?.waypoints_hash,
+      robot?.link,
+      robot?.robot,
+    ],
+    async (state) => {
+      const isOld = begin();
+      const { selected, view } = state;
+      if (!selected || !view?.plan || view.plan.refusal) return store.set({ runSummary: null });
+      try {
+        const summary = await api.run(selected, runRangeOf(state));
+        if (!isOld()) store.set({ runSummary: { ...summary, gait: selected } });
+      } catch (error) {
+        if (isOld()) return undefined;
+        store.set({ runSummary: null });
+        if (error.status !== 409 && error.status !== 422) report(error);
+      }
+      return undefined;
+    },
+  );
 }
 
 /** Builds the section; returns what Esc may cancel. */
@@ -219,25 +307,54 @@ export function mountRobot(store, edits, playback) {
     prepare: async () => Boolean(await needOperator(store, "The studio records your name with this run.")),
     send: attempt(async () => {
       const { selected, runSummary, operator } = store.state;
-      acceptRobot(store, await api.robot("send", { gait: selected, waypoints_hash: runSummary.waypoints_hash, from: runSummary.from, iterations: runSummary.iterations, by: operator }));
+      acceptRobot(
+        store,
+        await api.robot("send", {
+          gait: selected,
+          waypoints_hash: runSummary.waypoints_hash,
+          from: runSummary.from,
+          iterations: runSummary.iterations,
+          by: operator,
+        }),
+      );
     }),
   });
   const parts = build(store);
   const ways = assemble({ store, edits, playback }, parts, send);
-  store.watch(({ robot, selected, view }) => [robot, selected, view?.plan], (state) => showRobot(parts, ways, state));
-  store.watch(({ robot, view, jog }) => [robot?.strokes_mm, robot?.run, view?.plan, jog?.target_mm], ({ robot, view, jog }) => {
-    const target = jog?.wired ? jog.target_mm : null;
-    parts.bars.show(robot?.strokes_mm ?? null, target ?? commandedStrokes(robot, view));
-  });
-  store.watch(({ robot, view, runSummary, selected, runRange, connected }) => [robot, view, runSummary, selected, runRange, connected], (state) => {
-    const reason = whyNotSend(state);
-    send.allow(reason);
-    setText(parts.sendNote, reason ?? "To send the gait, hold the button or the key Enter for one second. "
-      + "Or click once to start a countdown.");
-    parts.summary.replaceChildren(...summaryRows(state));
-    setText(parts.stopText, stopSentence(stopLimit(state)));
-    parts.summary.hidden = parts.summary.childElementCount === 0;
-  });
+  store.watch(
+    ({ robot, selected, view }) => [robot, selected, view?.plan],
+    (state) => showRobot(parts, ways, state),
+  );
+  store.watch(
+    ({ robot, view, jog }) => [robot?.strokes_mm, robot?.run, view?.plan, jog?.target_mm],
+    ({ robot, view, jog }) => {
+      const target = jog?.wired ? jog.target_mm : null;
+      parts.bars.show(robot?.strokes_mm ?? null, target ?? commandedStrokes(robot, view));
+    },
+  );
+  store.watch(
+    ({ robot, view, runSummary, selected, runRange, connected }) => [
+      robot,
+      view,
+      runSummary,
+      selected,
+      runRange,
+      connected,
+    ],
+    (state) => {
+      const reason = whyNotSend(state);
+      send.allow(reason);
+      setText(
+        parts.sendNote,
+        reason
+          ?? "To send the gait, hold the button or the key Enter for one second. "
+            + "Or click once to start a countdown.",
+      );
+      parts.summary.replaceChildren(...summaryRows(state));
+      setText(parts.stopText, stopSentence(stopLimit(state)));
+      parts.summary.hidden = parts.summary.childElementCount === 0;
+    },
+  );
   followSummary(store);
   return send.cancel;
 }

@@ -12,24 +12,36 @@ const COUNTDOWN_S = 3;
 const isInReach = (element) => element.checkVisibility() && !element.closest("[inert]");
 
 /**
- * @param {object} options
+ * @param {Record<string, any>} options
  * @param {() => Promise<boolean>} options.prepare asked before the countdown: the operator's name is known
  * @param {() => Promise<void>} options.send carries it out
  * @returns {{element: HTMLElement, allow: (reason: string|null) => void, cancel: () => boolean}}
  */
 export function sendControl({ prepare, send }) {
-  const button = h("button", { class: "primary wide hold", "data-robot": true }, h("span", { class: "fill" }), h("span", { text: "Send to robot" }));
+  const button = h(
+    "button",
+    { class: "primary wide hold", "data-robot": true },
+    h("span", { class: "fill" }),
+    h("span", { text: "Send to robot" }),
+  );
   const number = h("b", { text: String(COUNTDOWN_S) });
   const cancelButton = h("button", { text: "Cancel" });
   const words = h("span", { text: "The robot starts to move when the countdown reaches 0." });
-  const countdown = h("div", { class: "countdown", role: "group", "aria-label": "Countdown", hidden: true },
-    number, words, cancelButton);
+  const countdown = h(
+    "div",
+    { class: "countdown", role: "group", "aria-label": "Countdown", hidden: true },
+    number,
+    words,
+    cancelButton,
+  );
   let timer = null;
   let holdTimer = null;
   let held = false;
   let reason = null;
 
-  const start = async () => { if (!reason) await send(); };
+  const start = async () => {
+    if (!reason) await send();
+  };
 
   function cancel() {
     if (timer === null) return false;
@@ -96,12 +108,17 @@ export function sendControl({ prepare, send }) {
     letGo();
     count();
   });
-  for (const type of ["pointerup", "pointerleave", "pointercancel", "blur"]) button.addEventListener(type, letGo);
+  for (const type of ["pointerup", "pointerleave", "pointercancel", "blur"])
+    button.addEventListener(type, letGo);
   button.addEventListener("contextmenu", (event) => event.preventDefault());
-  onPress(button, () => {
-    if (!held) count();
-    held = false;
-  }, (why) => toast(why));
+  onPress(
+    button,
+    () => {
+      if (!held) count();
+      held = false;
+    },
+    (why) => toast(why),
+  );
   cancelButton.addEventListener("click", cancel);
 
   return {
@@ -110,8 +127,12 @@ export function sendControl({ prepare, send }) {
     allow(why) {
       reason = why;
       button.classList.toggle("primary", !why);
-      setAllowed(button, why, "To send the gait, hold the button or the key Enter for one second. "
-        + "Or click once to start a countdown that you can cancel");
+      setAllowed(
+        button,
+        why,
+        "To send the gait, hold the button or the key Enter for one second. "
+          + "Or click once to start a countdown that you can cancel",
+      );
       if (!why) return;
       cancel();
       letGo();

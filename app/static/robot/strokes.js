@@ -9,10 +9,29 @@ const STROKE_MM = 20;
 function footRow(foot) {
   const bars = Array.from({ length: MOTORS }, (_, motor) => {
     const [fill, wanted, number] = [h("i"), h("u", { hidden: true }), h("span", { text: "–" })];
-    return { fill, wanted, number, element: h("div", { class: "bar", role: "img", "aria-label": `Foot ${foot + 1}, motor ${motor + 1}` }, fill, wanted, number) };
+    return {
+      fill,
+      wanted,
+      number,
+      element: h(
+        "div",
+        { class: "bar", role: "img", "aria-label": `Foot ${foot + 1}, motor ${motor + 1}` },
+        fill,
+        wanted,
+        number,
+      ),
+    };
   });
   const name = h("span", { class: "foot-name" }, h("i", { class: "foot-dot" }), `Foot ${foot + 1}`);
-  return { bars, element: h("div", { class: "foot-row", data: { foot: foot + 1 } }, name, ...bars.map(({ element }) => element)) };
+  return {
+    bars,
+    element: h(
+      "div",
+      { class: "foot-row", data: { foot: foot + 1 } },
+      name,
+      ...bars.map(({ element }) => element),
+    ),
+  };
 }
 
 /**
@@ -32,7 +51,8 @@ export function strokeBars(feet = 4) {
         bar.fill.style.transform = `scaleX(${clamp((value ?? 0) / STROKE_MM, 0, 1)})`;
         bar.wanted.hidden = wanted === null;
         if (wanted !== null) bar.wanted.style.left = `calc(${clamp(wanted / STROKE_MM, 0, 1) * 100}% - 1px)`;
-        bar.element.title = wanted === null ? "Measured, mm" : `Measured ${fixed(value)} mm, wanted ${fixed(wanted)} mm`;
+        bar.element.title =
+          wanted === null ? "Measured, mm" : `Measured ${fixed(value)} mm, wanted ${fixed(wanted)} mm`;
       });
     },
   };

@@ -11,7 +11,7 @@ const SAME_MM = 0.01;
 
 /**
  * @typedef {{id: string, state: string, reached: number|null, count: number|null, seconds: number[], move_seconds: number[],
- *   error_mm: number[], measured_mm: number[][], commanded_mm: number[][], figures: object}} AlignedRun
+ *   error_mm: number[], measured_mm: number[][], commanded_mm: number[][], figures: Record<string, any>}} AlignedRun
  * @typedef {{waypoints: number[], laps: number[], apart_mm: number, runs: [AlignedRun, AlignedRun]}} RunComparison
  */
 
@@ -23,7 +23,8 @@ const LINES = [
 ];
 
 const strokeLine = (motor) => ({
-  name: `Stroke of foot ${Math.floor(motor / MOTORS) + 1}, motor ${(motor % MOTORS) + 1}`, unit: "mm",
+  name: `Stroke of foot ${Math.floor(motor / MOTORS) + 1}, motor ${(motor % MOTORS) + 1}`,
+  unit: "mm",
   of: ({ measured_mm: rows }) => rows.map((row) => row[motor]),
 });
 
@@ -37,22 +38,32 @@ function extentText(both) {
   const stopped = runs.some(({ reached, count }) => reached !== count);
   const [count, last] = [counted(waypoints.length, "waypoint"), placeText(both, waypoints.length - 1)];
   const end = stopped ? ` The shorter run ended at ${last}.` : ` The last of these is ${last}.`;
-  const other = apart > SAME_MM ? " The two runs had different waypoints. "
-    + `Their commanded strokes differ by up to ${fixed(apart, 2)} mm.` : "";
+  const other =
+    apart > SAME_MM
+      ? " The two runs had different waypoints. "
+        + `Their commanded strokes differ by up to ${fixed(apart, 2)} mm.`
+      : "";
   return `The comparison covers the ${count} that both runs reached.${end}${other}`;
 }
 
 function plotPart(both) {
   const lines = [...LINES, ...both.runs[0].measured_mm[0].map((_, motor) => strokeLine(motor))];
-  const select = h("select", { "aria-label": "Plot of both runs" }, ...lines.map(({ name, unit }, index) => h("option", { value: index, text: `${name}, ${unit}` })));
+  const select = h(
+    "select",
+    { "aria-label": "Plot of both runs" },
+    ...lines.map(({ name, unit }, index) => h("option", { value: index, text: `${name}, ${unit}` })),
+  );
   const place = h("div");
   const show = () => {
     const line = lines[Number(select.value)];
-    place.replaceChildren(waypointPlot({
-      title: `${line.name}, ${line.unit}, at each waypoint`, unit: line.unit,
-      places: both.waypoints.map((_, index) => placeText(both, index)),
-      series: ["this", "other"].map((kind, index) => ({ kind, values: line.of(both.runs[index]) })),
-    }));
+    place.replaceChildren(
+      waypointPlot({
+        title: `${line.name}, ${line.unit}, at each waypoint`,
+        unit: line.unit,
+        places: both.waypoints.map((_, index) => placeText(both, index)),
+        series: ["this", "other"].map((kind, index) => ({ kind, values: line.of(both.runs[index]) })),
+      }),
+    );
   };
   select.addEventListener("change", show);
   show();
@@ -60,31 +71,70 @@ function plotPart(both) {
 }
 
 const change = (a, b, decimals) =>
-  (Number.isFinite(a) && Number.isFinite(b) ? `${b > a ? "+" : ""}${fixed(b - a, decimals)}` : "–");
+  Number.isFinite(a) && Number.isFinite(b) ? `${b > a ? "+" : ""}${fixed(b - a, decimals)}` : "–";
 
 const rowsOf = (names, a, b, decimals = 2) =>
-  names.map((name, index) => [name, fixed(a[index], decimals), fixed(b[index], decimals), change(a[index], b[index], decimals)]);
+  names.map((name, index) => [
+    name,
+    fixed(a[index], decimals),
+    fixed(b[index], decimals),
+    change(a[index], b[index], decimals),
+  ]);
 
 function tables({ runs: [one, other] }) {
   const [a, b] = [one.figures, other.figures];
   const head = ["", "this", "other", "change"];
   const words = (names) => names.map((text) => ({ text }));
-  const times = ({ figures, move_seconds: moves }) => [figures.seconds, figures.estimate, Math.max(...moves), figures.start_seconds];
-  const largest = (figures) => [figures.largest_mm, Math.max(...figures.foot_largest_mm), figures.body_largest_mm];
+  const times = ({ figures, move_seconds: moves }) => [
+    figures.seconds,
+    figures.estimate,
+    Math.max(...moves),
+    figures.start_seconds,
+  ];
+  const largest = (figures) => [
+    figures.largest_mm,
+    Math.max(...figures.foot_largest_mm),
+    figures.body_largest_mm,
+  ];
   return [
-    figureTable("Times, s", "The table covers only the waypoints that both runs reached. "
-      + "Duration: from sending the first waypoint until the robot reached the last waypoint. "
-      + "Expected: the duration computed from the firmware's speed ramps",
-      head, rowsOf(words(["duration", "expected", "slowest move", "to the start pose"]), times(one), times(other), 1)),
-    figureTable("Largest errors, mm", "Largest error of any motor, any foot and the body. "
-      + "The table covers only the waypoints that both runs reached",
-      head, rowsOf(words(["motors, largest", "feet, largest", "body, largest"]), largest(a), largest(b))),
-    figureTable("Feet, largest, mm", "Largest distance of each foot from its planned position. "
-      + "The table covers only the waypoints that both runs reached",
-      head, rowsOf(a.foot_largest_mm.map((_, foot) => footName(foot)), a.foot_largest_mm, b.foot_largest_mm)),
-    figureTable("Motors, largest, mm", "Largest difference between measured and commanded stroke. "
-      + "The table covers only the waypoints that both runs reached",
-      head, rowsOf(a.motor_largest_mm.map(motorName), a.motor_largest_mm, b.motor_largest_mm)),
+    figureTable(
+      "Times, s",
+      "The table covers only the waypoints that both runs reached. "
+        + "Duration: from sending the first waypoint until the robot reached the last waypoint. "
+        + "Expected: the duration computed from the firmware's speed ramps",
+      head,
+      rowsOf(
+        words(["duration", "expected", "slowest move", "to the start pose"]),
+        times(one),
+        times(other),
+        1,
+      ),
+    ),
+    figureTable(
+      "Largest errors, mm",
+      "Largest error of any motor, any foot and the body. "
+        + "The table covers only the waypoints that both runs reached",
+      head,
+      rowsOf(words(["motors, largest", "feet, largest", "body, largest"]), largest(a), largest(b)),
+    ),
+    figureTable(
+      "Feet, largest, mm",
+      "Largest distance of each foot from its planned position. "
+        + "The table covers only the waypoints that both runs reached",
+      head,
+      rowsOf(
+        a.foot_largest_mm.map((_, foot) => footName(foot)),
+        a.foot_largest_mm,
+        b.foot_largest_mm,
+      ),
+    ),
+    figureTable(
+      "Motors, largest, mm",
+      "Largest difference between measured and commanded stroke. "
+        + "The table covers only the waypoints that both runs reached",
+      head,
+      rowsOf(a.motor_largest_mm.map(motorName), a.motor_largest_mm, b.motor_largest_mm),
+    ),
   ];
 }
 
@@ -96,8 +146,11 @@ function tables({ runs: [one, other] }) {
 export function runComparison(both) {
   const text = h("p", { class: "why", role: "status", "aria-label": "Comparison" });
   if (!both.waypoints.length) {
-    setText(text, "The two runs cannot be compared, because they have reached no waypoint in common. "
-      + "Choose another run.");
+    setText(
+      text,
+      "The two runs cannot be compared, because they have reached no waypoint in common. "
+        + "Choose another run.",
+    );
     return [text];
   }
   setText(text, extentText(both));

@@ -7,16 +7,28 @@ import { ticket } from "../lib/latest_only.js";
 import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
 
-const TONES = { done: "good", running: "accent", stopped: "caution", stopping: "caution", interrupted: "caution", fault: "bad", lost: "bad", refused: "quiet" };
+const TONES = {
+  done: "good",
+  running: "accent",
+  stopped: "caution",
+  stopping: "caution",
+  interrupted: "caution",
+  fault: "bad",
+  lost: "bad",
+  refused: "quiet",
+};
 const PAGE = 30;
 
 export const runTone = ({ state }) => TONES[state] ?? "quiet";
 
 const durationOf = (run) => run.errors?.seconds ?? run.seconds ?? null;
-const figures = (run) => [
-  durationOf(run) === null ? null : `${seconds(durationOf(run))} s`,
-  Number.isFinite(run.errors?.largest_mm) ? `error ${fixed(run.errors.largest_mm, 2)} mm` : null,
-].filter(Boolean).join(" · ");
+const figures = (run) =>
+  [
+    durationOf(run) === null ? null : `${seconds(durationOf(run))} s`,
+    Number.isFinite(run.errors?.largest_mm) ? `error ${fixed(run.errors.largest_mm, 2)} mm` : null,
+  ]
+    .filter(Boolean)
+    .join(" · ");
 
 /** A run in a list: gait, result, who, when, duration and largest error. */
 function runRow(run, open) {
@@ -24,11 +36,20 @@ function runRow(run, open) {
   const largest = run.errors?.largest_mm;
   const error = Number.isFinite(largest) ? `Largest error of a motor: ${fixed(largest, 2)} mm.` : "";
   const title = `${run.sentence || "Show this run together with the plan."} ${error}`.trim();
-  const button = h("button", { class: "run-row", title, data: { run: run.id }, on: { click: () => open(run.id) } },
-    h("span", { class: "run-line" }, h("span", { class: "dot", data: { tone: runTone(run) } }), h("b", { text: run.gait_name }), h("span", { class: "word", text: run.state })),
+  const button = h(
+    "button",
+    { class: "run-row", title, data: { run: run.id }, on: { click: () => open(run.id) } },
+    h(
+      "span",
+      { class: "run-line" },
+      h("span", { class: "dot", data: { tone: runTone(run) } }),
+      h("b", { text: run.gait_name }),
+      h("span", { class: "word", text: run.state }),
+    ),
     h("span", { class: "run-line quiet" }, h("span", { text: `${run.by} · ${when}` })),
     h("span", { class: "run-line quiet", text: figures(run) || run.sentence }),
-    run.note ? h("span", { class: "run-line run-note", text: run.note }) : null);
+    run.note ? h("span", { class: "run-line run-note", text: run.note }) : null,
+  );
   return h("li", {}, button);
 }
 
@@ -44,7 +65,10 @@ function dayField(text, name, help) {
 
 function fill(select, all, options) {
   const kept = select.value;
-  select.replaceChildren(h("option", { value: "", text: all }), ...options.map(({ value, text }) => h("option", { value, text })));
+  select.replaceChildren(
+    h("option", { value: "", text: all }),
+    ...options.map(({ value, text }) => h("option", { value, text })),
+  );
   select.value = options.some(({ value }) => value === kept) ? kept : "";
 }
 
@@ -53,7 +77,7 @@ const plain = (values) => values.map((value) => ({ value, text: value }));
 /**
  * Builds the list.
  * @param {(id: string) => void} open
- * @returns {{element: HTMLElement, refresh: () => Promise<object[]|null>}} `refresh` resolves to the runs that are listed
+ * @returns {{element: HTMLElement, refresh: () => Promise<Record<string, any>[]|null>}} `refresh` resolves to the runs that are listed
  */
 export function runList(open) {
   const [gait, state, operator] = [
@@ -65,20 +89,35 @@ export function runList(open) {
     dayField("Since", "Runs since", "Show only the runs that started on this day or later"),
     dayField("Until", "Runs until", "Show only the runs that started on this day or earlier"),
   ];
-  const [count, list] = [h("p", { class: "quiet", role: "status" }), h("ul", { class: "run-list", role: "list", "aria-label": "Runs" })];
+  const [count, list] = [
+    h("p", { class: "quiet", role: "status" }),
+    h("ul", { class: "run-list", role: "list", "aria-label": "Runs" }),
+  ];
   oneTabStop(list);
   const more = h("button", { class: "link", text: "Older runs", hidden: true });
   let shown = [];
   const begin = ticket();
 
-  const wanted = (offset) => ({ gait: gait.value, state: state.value, operator: operator.value, since: since.input.value, until: until.input.value, offset, most: PAGE });
+  const wanted = (offset) => ({
+    gait: gait.value,
+    state: state.value,
+    operator: operator.value,
+    since: since.input.value,
+    until: until.input.value,
+    offset,
+    most: PAGE,
+  });
 
   const load = attempt(async (offset) => {
     const isOld = begin();
     const answer = await api.runs(wanted(offset));
     if (isOld()) return null;
     shown = offset ? [...shown, ...answer.runs] : answer.runs;
-    fill(gait, "Every gait", answer.gaits.map(({ id, name }) => ({ value: id, text: name })));
+    fill(
+      gait,
+      "Every gait",
+      answer.gaits.map(({ id, name }) => ({ value: id, text: name })),
+    );
     fill(state, "Every result", plain(answer.states));
     fill(operator, "Everybody", plain(answer.operators));
     list.replaceChildren(...shown.map((run) => runRow(run, open)));
@@ -87,13 +126,31 @@ export function runList(open) {
     return shown;
   });
 
-  for (const field of [gait, state, operator, since.input, until.input]) field.addEventListener("change", () => load(0));
+  for (const field of [gait, state, operator, since.input, until.input])
+    field.addEventListener("change", () => load(0));
   more.addEventListener("click", () => load(shown.length));
   return {
-    element: h("div", { class: "run-all" }, h("div", { class: "run-filter", role: "group", "aria-label": "Filter" }, gait, state, operator, since.element, until.element), count, list, more),
+    element: h(
+      "div",
+      { class: "run-all" },
+      h(
+        "div",
+        { class: "run-filter", role: "group", "aria-label": "Filter" },
+        gait,
+        state,
+        operator,
+        since.element,
+        until.element,
+      ),
+      count,
+      list,
+      more,
+    ),
     refresh: () => load(0),
   };
 }
 
-const noRuns = ({ states }) => (states.length ? "No run matches the filters."
-  : "No run yet. Send an approved gait to the robot. This list then shows the run with its measured strokes.");
+const noRuns = ({ states }) =>
+  states.length
+    ? "No run matches the filters."
+    : "No run yet. Send an approved gait to the robot. This list then shows the run with its measured strokes.";

@@ -16,21 +16,39 @@ export function ticksOf(low, high) {
   const size = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((factor) => factor * size).find((one) => one >= rough);
   const first = Math.ceil(low / step - 1e-9);
-  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, index) => (first + index) * step);
+  return Array.from(
+    { length: Math.floor(high / step + 1e-9) - first + 1 },
+    (_, index) => (first + index) * step,
+  );
 }
 
-const key = (kind) => h("span", {}, svg("svg", { class: "run-key", viewBox: "0 0 22 8", "aria-hidden": "true" },
-  svg("polyline", { class: `run-${kind}`, points: "1,4 21,4" })), WORDS[kind]);
+const key = (kind) =>
+  h(
+    "span",
+    {},
+    svg(
+      "svg",
+      { class: "run-key", viewBox: "0 0 22 8", "aria-hidden": "true" },
+      svg("polyline", { class: `run-${kind}`, points: "1,4 21,4" }),
+    ),
+    WORDS[kind],
+  );
 
 /** The values of both runs at the waypoint under the pointer, in the caption. */
 function pointed(picture, reading, { places, series, unit }, placeAt) {
   const empty = "Point at a waypoint to read the values of both runs.";
   reading.textContent = empty;
-  onPointed(picture, (event) => {
-    const box = picture.getBoundingClientRect();
-    const index = placeAt(((event.clientX - box.left) / box.width) * WIDTH);
-    reading.textContent = `${places[index]}: ${series.map(({ kind, values }) => `${kind} ${fixed(values[index], 2)}`).join(", ")} ${unit}`;
-  }, () => { reading.textContent = empty; });
+  onPointed(
+    picture,
+    (event) => {
+      const box = picture.getBoundingClientRect();
+      const index = placeAt(((event.clientX - box.left) / box.width) * WIDTH);
+      reading.textContent = `${places[index]}: ${series.map(({ kind, values }) => `${kind} ${fixed(values[index], 2)}`).join(", ")} ${unit}`;
+    },
+    () => {
+      reading.textContent = empty;
+    },
+  );
 }
 
 /**
@@ -47,17 +65,45 @@ export function waypointPlot(shown) {
   const toY = (value) => HEIGHT - BOTTOM - ((value - low) / (high - low || 1)) * (HEIGHT - TOP - BOTTOM);
   const ticks = ticksOf(low, high).flatMap((value) => [
     svg("line", { class: "grid", x1: LEFT, x2: WIDTH - RIGHT, y1: toY(value), y2: toY(value) }),
-    svg("text", { x: LEFT - 4, y: toY(value) + 3, "text-anchor": "end", text: String(Number(value.toPrecision(3))) }),
+    svg("text", {
+      x: LEFT - 4,
+      y: toY(value) + 3,
+      "text-anchor": "end",
+      text: String(Number(value.toPrecision(3))),
+    }),
   ]);
   const ends = [0, places.length - 1].map((index) =>
-    svg("text", { x: toX(index), y: HEIGHT - 6, "text-anchor": index ? "end" : "start", text: places[index] }));
+    svg("text", {
+      x: toX(index),
+      y: HEIGHT - 6,
+      "text-anchor": index ? "end" : "start",
+      text: places[index],
+    }),
+  );
   const lines = series.map(({ kind, values }) =>
-    svg("polyline", { class: `run-${kind}`, points: values.map((value, index) => `${toX(index).toFixed(1)},${toY(value).toFixed(1)}`).join(" ") }));
-  const summary = series.map(({ kind, values }) => `${WORDS[kind]} ends at ${fixed(values.at(-1), 2)}`).join(", ");
-  const picture = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": `${title}: ${summary}` }, ...ticks, ...ends, ...lines);
+    svg("polyline", {
+      class: `run-${kind}`,
+      points: values.map((value, index) => `${toX(index).toFixed(1)},${toY(value).toFixed(1)}`).join(" "),
+    }),
+  );
+  const summary = series
+    .map(({ kind, values }) => `${WORDS[kind]} ends at ${fixed(values.at(-1), 2)}`)
+    .join(", ");
+  const picture = svg(
+    "svg",
+    { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": `${title}: ${summary}` },
+    ...ticks,
+    ...ends,
+    ...lines,
+  );
   const reading = h("span", { class: "quiet number" });
-  const placeAt = (x) => Math.min(Math.max(Math.round(((x - LEFT) / (WIDTH - LEFT - RIGHT)) * last), 0), places.length - 1);
+  const placeAt = (x) =>
+    Math.min(Math.max(Math.round(((x - LEFT) / (WIDTH - LEFT - RIGHT)) * last), 0), places.length - 1);
   pointed(picture, reading, shown, placeAt);
-  const legend = h("span", { class: "run-legend", role: "note", "aria-label": "Lines of the comparison" }, ...series.map(({ kind }) => key(kind)));
+  const legend = h(
+    "span",
+    { class: "run-legend", role: "note", "aria-label": "Lines of the comparison" },
+    ...series.map(({ kind }) => key(kind)),
+  );
   return h("figure", { class: "run-plot" }, picture, h("figcaption", {}, legend, reading));
 }

@@ -7,35 +7,62 @@ const NAME = /^[^\t\r\n,;"]{1,40}$/;
 
 /** Why a name cannot be taken; null where it can. */
 function nameReason(name, taken, what, withoutDash) {
-  if (!NAME.test(name)) return `The name of a ${what} must have 1 to 40 characters. `
-    + `Tabs, commas, semicolons and quotes are not allowed.`;
-  if (withoutDash && name.includes("-")) return `The name “${name}” must not contain a hyphen. `
-    + `A hyphen separates place and height in the name of a position, such as Home-Base.`;
-  if (taken.some((one) => one.toLowerCase() === name.toLowerCase())) return `A ${what} “${name}” already `
-    + `exists. Choose another name.`;
+  if (!NAME.test(name))
+    return (
+      `The name of a ${what} must have 1 to 40 characters. `
+      + `Tabs, commas, semicolons and quotes are not allowed.`
+    );
+  if (withoutDash && name.includes("-"))
+    return (
+      `The name “${name}” must not contain a hyphen. `
+      + `A hyphen separates place and height in the name of a position, such as Home-Base.`
+    );
+  if (taken.some((one) => one.toLowerCase() === name.toLowerCase()))
+    return `A ${what} “${name}” already ` + `exists. Choose another name.`;
   return null;
 }
 
-const renamedKey = (map, from, to) => Object.fromEntries(Object.entries(map).map(([name, value]) => [name === from ? to : name, value]));
-const withDefinitions = (words) => (sheet) => ({ ...sheet, words: { ...sheet.words, ...words(sheet.words) } });
+const renamedKey = (map, from, to) =>
+  Object.fromEntries(Object.entries(map).map(([name, value]) => [name === from ? to : name, value]));
+const withDefinitions = (words) => (sheet) => ({
+  ...sheet,
+  words: { ...sheet.words, ...words(sheet.words) },
+});
 
 function renamedPosition(segments, axis, from, to) {
   const moved = (position) => {
     const [xy, ...z] = position.split("-");
-    return axis === "xy" ? (xy === from ? [to, ...z].join("-") : position) : z.join("-") === from ? `${xy}-${to}` : position;
+    return axis === "xy"
+      ? xy === from
+        ? [to, ...z].join("-")
+        : position
+      : z.join("-") === from
+        ? `${xy}-${to}`
+        : position;
   };
-  return Object.fromEntries(Object.entries(segments).map(([name, s]) => [name, { ...s, start: moved(s.start), end: moved(s.end) }]));
+  return Object.fromEntries(
+    Object.entries(segments).map(([name, s]) => [name, { ...s, start: moved(s.start), end: moved(s.end) }]),
+  );
 }
 
 const renameSegment = (from, to) => (sheet) => ({
-  ...sheet, rows: sheet.rows.map((row) => row.map((name) => (name === from ? to : name))), words: { ...sheet.words, segments: renamedKey(sheet.words.segments, from, to) },
+  ...sheet,
+  rows: sheet.rows.map((row) => row.map((name) => (name === from ? to : name))),
+  words: { ...sheet.words, segments: renamedKey(sheet.words.segments, from, to) },
 });
 
 const without = (map, name) => Object.fromEntries(Object.entries(map).filter(([one]) => one !== name));
 
 /** A text field that is read on change; a wrong text is refused and the value restored. */
 function field({ label, value, width, unit, read, refuse }) {
-  const input = h("input", { value, "aria-label": label, title: label, autocomplete: "off", spellcheck: "false", class: unit === undefined ? "" : "number" });
+  const input = h("input", {
+    value,
+    "aria-label": label,
+    title: label,
+    autocomplete: "off",
+    spellcheck: "false",
+    class: unit === undefined ? "" : "number",
+  });
   const finish = () => {
     if (input.value === value) return;
     const reason = read(input.value.trim());
@@ -62,7 +89,11 @@ function field({ label, value, width, unit, read, refuse }) {
 }
 
 function choice({ label, value, options, read }) {
-  const select = h("select", { "aria-label": label, title: label }, ...options.map((one) => h("option", { value: one, text: one })));
+  const select = h(
+    "select",
+    { "aria-label": label, title: label },
+    ...options.map((one) => h("option", { value: one, text: one })),
+  );
   select.value = value;
   select.addEventListener("change", () => read(select.value));
   return select;
@@ -80,13 +111,26 @@ const numberOf = (text) => (text === "" ? NaN : Number(text.replace(",", ".").re
 
 const AXES = {
   xy: {
-    title: "Places", unit: "×", help: "Foot position as a multiple of the step", shown: String,
-    stored: (value) => value, least: -10, most: 10, fresh: 0.5,
+    title: "Places",
+    unit: "×",
+    help: "Foot position as a multiple of the step",
+    shown: String,
+    stored: (value) => value,
+    least: -10,
+    most: 10,
+    fresh: 0.5,
     uses: (position) => position.split("-")[0],
   },
   z: {
-    title: "Heights", unit: "mm", help: "Stroke of each motor when the foot is in its middle position", shown: (value) => String(Number((value * 1000).toFixed(4))), stored: (value) => value / 1000,
-    least: 0.5, most: 19.5, fresh: 0.006, uses: (position) => position.split("-").slice(1).join("-"),
+    title: "Heights",
+    unit: "mm",
+    help: "Stroke of each motor when the foot is in its middle position",
+    shown: (value) => String(Number((value * 1000).toFixed(4))),
+    stored: (value) => value / 1000,
+    least: 0.5,
+    most: 19.5,
+    fresh: 0.006,
+    uses: (position) => position.split("-").slice(1).join("-"),
   },
 };
 
@@ -99,10 +143,15 @@ const freshName = (taken, stem) => {
 /** Why a number cannot be a place or a height, which the motors of the robot have to reach; null where it can. */
 function numberReason(name, number, unit, [least, most]) {
   if (number >= least && number <= most) return null;
-  if (unit !== "mm" || Number.isNaN(number)) return `“${name}” needs a number between ${least} and `
-    + `${most}${unit === "mm" ? " mm" : ""}. The old number stays.`;
-  return `“${name}” cannot be ${number} mm. The robot's motors reach ${least} to ${most} mm. `
-    + `Type a height in this range.`;
+  if (unit !== "mm" || Number.isNaN(number))
+    return (
+      `“${name}” needs a number between ${least} and `
+      + `${most}${unit === "mm" ? " mm" : ""}. The old number stays.`
+    );
+  return (
+    `“${name}” cannot be ${number} mm. The robot's motors reach ${least} to ${most} mm. `
+    + `Type a height in this range.`
+  );
 }
 
 /** One axis of the named positions: its names and values. */
@@ -115,71 +164,175 @@ function axisPart(sheet, axis, { run, refuse, strokes }) {
   const rows = Object.entries(map).map(([name, value]) => {
     const user = segments.find(([, { start, end }]) => uses(start) === name || uses(end) === name)?.[0];
     const last = Object.keys(map).length === 1;
-    return h("div", { class: "word" },
+    return h(
+      "div",
+      { class: "word" },
       field({
-        label: `Name of the ${what} ${name}`, value: name, refuse,
-        read: (text) => nameReason(text, Object.keys(without(map, name)), what, axis === "xy")
-          ?? run({ change: withDefinitions((words) => ({ [axis]: renamedKey(words[axis], name, text), segments: renamedPosition(words.segments, axis, name, text) })), label: `Rename ${what} ${name} to ${text}` }),
+        label: `Name of the ${what} ${name}`,
+        value: name,
+        refuse,
+        read: (text) =>
+          nameReason(text, Object.keys(without(map, name)), what, axis === "xy")
+          ?? run({
+            change: withDefinitions((words) => ({
+              [axis]: renamedKey(words[axis], name, text),
+              segments: renamedPosition(words.segments, axis, name, text),
+            })),
+            label: `Rename ${what} ${name} to ${text}`,
+          }),
       }),
       field({
-        label: `${help} at ${name}${unit === "×" ? "" : `, ${unit}`}`, value: shown(value), unit, refuse,
+        label: `${help} at ${name}${unit === "×" ? "" : `, ${unit}`}`,
+        value: shown(value),
+        unit,
+        refuse,
         read: (text) => {
           const number = numberOf(text);
-          return numberReason(name, number, unit, range) ?? run({ change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: stored(number) } })), label: `${name} to ${number}${unit === "mm" ? " mm" : " × the step"}` });
+          return (
+            numberReason(name, number, unit, range)
+            ?? run({
+              change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: stored(number) } })),
+              label: `${name} to ${number}${unit === "mm" ? " mm" : " × the step"}`,
+            })
+          );
         },
       }),
-      deletion(`Delete the ${what} ${name}`, user ? `The segment “${user}” uses “${name}”. `
-        + `Change or delete that segment before you delete the ${what}.`
-        : last ? `A segment table needs at least one ${what}.` : null,
-        () => run({ change: withDefinitions((words) => ({ [axis]: without(words[axis], name) })), label: `Delete ${what} ${name}` }), refuse));
+      deletion(
+        `Delete the ${what} ${name}`,
+        user
+          ? `The segment “${user}” uses “${name}”. `
+              + `Change or delete that segment before you delete the ${what}.`
+          : last
+            ? `A segment table needs at least one ${what}.`
+            : null,
+        () =>
+          run({
+            change: withDefinitions((words) => ({ [axis]: without(words[axis], name) })),
+            label: `Delete ${what} ${name}`,
+          }),
+        refuse,
+      ),
+    );
   });
-  const add = h("button", { class: "link", text: `Add a ${what}`, on: {
-    click: () => {
-      const name = freshName(Object.keys(map), axis === "xy" ? "Place" : "Height");
-      run({ change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: fresh } })), label: `Add ${what} ${name}` });
+  const add = h("button", {
+    class: "link",
+    text: `Add a ${what}`,
+    on: {
+      click: () => {
+        const name = freshName(Object.keys(map), axis === "xy" ? "Place" : "Height");
+        run({
+          change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: fresh } })),
+          label: `Add ${what} ${name}`,
+        });
+      },
     },
-  } });
-  return h("div", { class: "axis", role: "group", "aria-label": title }, h("h3", { text: title, title: help }), ...rows, add);
+  });
+  return h(
+    "div",
+    { class: "axis", role: "group", "aria-label": title },
+    h("h3", { text: title, title: help }),
+    ...rows,
+    add,
+  );
 }
 
 function segmentRow(sheet, name, { run, refuse }) {
   const segment = sheet.words.segments[name];
-  const positions = Object.keys(sheet.words.xy).flatMap((xy) => Object.keys(sheet.words.z).map((z) => `${xy}-${z}`));
+  const positions = Object.keys(sheet.words.xy).flatMap((xy) =>
+    Object.keys(sheet.words.z).map((z) => `${xy}-${z}`),
+  );
   const uses = sheet.rows.flat().filter((one) => one === name).length;
-  const set = (part, label) => run({ change: withDefinitions((words) => ({ segments: { ...words.segments, [name]: { ...words.segments[name], ...part } } })), label });
+  const set = (part, label) =>
+    run({
+      change: withDefinitions((words) => ({
+        segments: { ...words.segments, [name]: { ...words.segments[name], ...part } },
+      })),
+      label,
+    });
   const air = h("input", { type: "checkbox", "aria-label": `${name} is in the air`, title: "In the air" });
   air.checked = segment.swing;
-  air.addEventListener("change", () => set({ swing: air.checked }, `${name} ${air.checked ? "in the air" : "on the ground"}`));
-  return h("div", { class: "word segment" },
+  air.addEventListener("change", () =>
+    set({ swing: air.checked }, `${name} ${air.checked ? "in the air" : "on the ground"}`),
+  );
+  return h(
+    "div",
+    { class: "word segment" },
     field({
-      label: `Name of the segment ${name}`, value: name, refuse,
-      read: (text) => nameReason(text, Object.keys(without(sheet.words.segments, name)), "segment", false) ?? run({ change: renameSegment(name, text), label: `Rename ${name} to ${text}` }),
+      label: `Name of the segment ${name}`,
+      value: name,
+      refuse,
+      read: (text) =>
+        nameReason(text, Object.keys(without(sheet.words.segments, name)), "segment", false)
+        ?? run({ change: renameSegment(name, text), label: `Rename ${name} to ${text}` }),
     }),
-    choice({ label: `Start of ${name}`, value: segment.start, options: positions, read: (start) => set({ start }, `${name} starts at ${start}`) }),
-    choice({ label: `End of ${name}`, value: segment.end, options: positions, read: (end) => set({ end }, `${name} ends at ${end}`) }),
+    choice({
+      label: `Start of ${name}`,
+      value: segment.start,
+      options: positions,
+      read: (start) => set({ start }, `${name} starts at ${start}`),
+    }),
+    choice({
+      label: `End of ${name}`,
+      value: segment.end,
+      options: positions,
+      read: (end) => set({ end }, `${name} ends at ${end}`),
+    }),
     air,
-    deletion(`Delete the segment ${name}`, uses ? `The table uses “${name}” in ${counted(uses, "cell")}. `
-      + `Replace “${name}” in the table first.`
-      : Object.keys(sheet.words.segments).length === 1 ? "A segment table needs at least one segment." : null,
-      () => run({ change: withDefinitions((words) => ({ segments: without(words.segments, name) })), label: `Delete segment ${name}` }), refuse));
+    deletion(
+      `Delete the segment ${name}`,
+      uses
+        ? `The table uses “${name}” in ${counted(uses, "cell")}. ` + `Replace “${name}” in the table first.`
+        : Object.keys(sheet.words.segments).length === 1
+          ? "A segment table needs at least one segment."
+          : null,
+      () =>
+        run({
+          change: withDefinitions((words) => ({ segments: without(words.segments, name) })),
+          label: `Delete segment ${name}`,
+        }),
+      refuse,
+    ),
+  );
 }
 
 function segmentPart(sheet, actions) {
   const names = Object.keys(sheet.words.segments);
-  const add = h("button", { class: "link", text: "Add a segment", on: {
-    click: () => {
-      const name = freshName(names, "Segment");
-      const { end: place } = sheet.words.segments[names.at(-1)];
-      actions.run({ change: withDefinitions((words) => ({ segments: { ...words.segments, [name]: { start: place, end: place, swing: false } } })), label: `Add segment ${name}` });
+  const add = h("button", {
+    class: "link",
+    text: "Add a segment",
+    on: {
+      click: () => {
+        const name = freshName(names, "Segment");
+        const { end: place } = sheet.words.segments[names.at(-1)];
+        actions.run({
+          change: withDefinitions((words) => ({
+            segments: { ...words.segments, [name]: { start: place, end: place, swing: false } },
+          })),
+          label: `Add segment ${name}`,
+        });
+      },
     },
-  } });
-  return h("div", { class: "axis", role: "group", "aria-label": "Segments" },
-    h("h3", { text: "Segments" }), h("div", { class: "word segment head" }, h("span", { text: "from" }), h("span", { text: "to" }), h("span", { text: "air", title: "In the air" }), h("span")),
-    ...names.map((name) => segmentRow(sheet, name, actions)), add);
+  });
+  return h(
+    "div",
+    { class: "axis", role: "group", "aria-label": "Segments" },
+    h("h3", { text: "Segments" }),
+    h(
+      "div",
+      { class: "word segment head" },
+      h("span", { text: "from" }),
+      h("span", { text: "to" }),
+      h("span", { text: "air", title: "In the air" }),
+      h("span"),
+    ),
+    ...names.map((name) => segmentRow(sheet, name, actions)),
+    add,
+  );
 }
 
 /** Whether a name or number is being typed. */
-export const isTyped = (control) => control?.matches("input:not([type=checkbox])") && control.value !== control.defaultValue;
+export const isTyped = (control) =>
+  control?.matches("input:not([type=checkbox])") && control.value !== control.defaultValue;
 
 /**
  * Fills the panel with a sheet's vocabulary where that changed; the control that had the focus keeps it, and a name or number
@@ -198,14 +351,20 @@ export function createDefinitions(panel, actions) {
     if (shown === text || isTyped(focused)) return;
     const place = controls().indexOf(focused);
     shown = text;
-    panel.replaceChildren(axisPart(sheet, "xy", actions), axisPart(sheet, "z", actions), segmentPart(sheet, actions));
+    panel.replaceChildren(
+      axisPart(sheet, "xy", actions),
+      axisPart(sheet, "z", actions),
+      segmentPart(sheet, actions),
+    );
     if (place >= 0) controls()[place]?.focus();
   }
   function soon() {
     if (!awaited) setTimeout(draw);
     awaited = true;
   }
-  panel.addEventListener("focusout", () => { if (latest) soon(); });
+  panel.addEventListener("focusout", () => {
+    if (latest) soon();
+  });
   return (sheet) => {
     latest = sheet;
     soon();

@@ -3,24 +3,34 @@
 import { h, setAttribute } from "../lib/dom.js";
 import { choicesOf, placeBefore } from "../document/segment_sheet.js";
 
-const matches = (name, text) => name.toLowerCase().startsWith(text) || name.toLowerCase().includes(` ${text}`);
+const matches = (name, text) =>
+  name.toLowerCase().startsWith(text) || name.toLowerCase().includes(` ${text}`);
 
 function option(choice, index) {
   const { name, segment, why } = choice;
-  const way = segment.start === segment.end ? `waits at ${segment.start}` : `${segment.start} → ${segment.end}`;
-  return h("li", {
-    role: "option", id: `segment-option-${index}`, "aria-selected": "false",
-    data: { ...(segment.swing ? { swing: "" } : {}), ...(why ? { why: "" } : {}) },
-    title: why ? `“${name}” ${why}. If you choose this segment, `
-      + "you must also change the segments before or after it." : null,
-  },
-    h("b", { text: name }), h("span", { text: why ?? way }));
+  const way =
+    segment.start === segment.end ? `waits at ${segment.start}` : `${segment.start} → ${segment.end}`;
+  return h(
+    "li",
+    {
+      role: "option",
+      id: `segment-option-${index}`,
+      "aria-selected": "false",
+      data: { ...(segment.swing ? { swing: "" } : {}), ...(why ? { why: "" } : {}) },
+      title: why
+        ? `“${name}” ${why}. If you choose this segment, `
+          + "you must also change the segments before or after it."
+        : null,
+    },
+    h("b", { text: name }),
+    h("span", { text: why ?? way }),
+  );
 }
 
 /**
  * Opens the list over a cell.
  * @param {HTMLElement} cell
- * @param {object} sheet
+ * @param {Record<string, any>} sheet
  * @param {[number, number]} place row and foot of the cell
  * @param {{text: string, choose: (name: string, way: string|null) => void, close: (isLeft: boolean) => void}} acts `text` is what was typed;
  *   `way` is "right" after Tab, "down" after Enter; `close` follows on every end, with whether the focus went elsewhere
@@ -28,12 +38,21 @@ function option(choice, index) {
 export function openSegmentChooser(cell, sheet, [row, foot], { text, choose, close }) {
   const list = h("ul", { role: "listbox", id: "segment-options", "aria-label": "Segments" });
   const input = h("input", {
-    role: "combobox", "aria-expanded": "true", "aria-controls": "segment-options", "aria-autocomplete": "list", autocomplete: "off", spellcheck: "false",
-    "aria-label": `Segment of foot ${foot + 1}`, placeholder: sheet.rows[row][foot],
+    role: "combobox",
+    "aria-expanded": "true",
+    "aria-controls": "segment-options",
+    "aria-autocomplete": "list",
+    autocomplete: "off",
+    spellcheck: "false",
+    "aria-label": `Segment of foot ${foot + 1}`,
+    placeholder: sheet.rows[row][foot],
   });
   const before = placeBefore(sheet, row, foot);
-  const place = h("p", { text: before ? `Foot ${foot + 1} is at ${before} before this segment.`
-    : `This is the first segment of foot ${foot + 1}.` });
+  const place = h("p", {
+    text: before
+      ? `Foot ${foot + 1} is at ${before} before this segment.`
+      : `This is the first segment of foot ${foot + 1}.`,
+  });
   const element = h("div", { class: "chooser", data: { foot: foot + 1 } }, input, place, list);
   const all = choicesOf(sheet, row, foot);
   let shown = [];
@@ -59,7 +78,8 @@ export function openSegmentChooser(cell, sheet, [row, foot], { text, choose, clo
     const typed = input.value.trim().toLowerCase();
     shown = all.filter(({ name }) => matches(name, typed));
     list.replaceChildren(...shown.map(option));
-    if (!shown.length) list.append(h("li", { class: "none", text: `No segment begins with “${input.value.trim()}”.` }));
+    if (!shown.length)
+      list.append(h("li", { class: "none", text: `No segment begins with “${input.value.trim()}”.` }));
     const present = typed ? -1 : shown.findIndex(({ name }) => name === sheet.rows[row][foot]);
     mark(Math.max(present, 0));
   }

@@ -8,7 +8,8 @@ import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
 
-const EMPTY = "The footfalls of this gait are drawn on the timeline. "
+const EMPTY =
+  "The footfalls of this gait are drawn on the timeline. "
   + "A segment table describes the same footfalls in words. "
   + "In each segment, every foot makes one named movement, such as Lift A, Step A or Wait A.";
 
@@ -46,31 +47,58 @@ export function mountSegmentSheetCreation(store, edits) {
     if (store.state.view?.id !== id || store.state.view.revision !== revision) return;
     found = answer;
     offer = table && { ...other, segment_table: table };
-    setAllowed(make, found.table ? null : found.sentence, "Makes a table that describes the footfalls "
-      + "of this timeline as named segments. Undo removes the table");
+    setAllowed(
+      make,
+      found.table ? null : found.sentence,
+      "Makes a table that describes the footfalls "
+        + "of this timeline as named segments. Undo removes the table",
+    );
     setText(why, found.sentence ?? "");
     roomy.hidden = !offer;
     if (!offer) return;
     const { phase_knots: phase, closing_knots: closing } = offer.options;
     setText(roomy, `Make a table with phases of ${phase} samples`);
-    roomy.title = `Draws the timeline again with phases of ${phase} samples and a final stance of `
+    roomy.title =
+      `Draws the timeline again with phases of ${phase} samples and a final stance of `
       + `${counted(closing, "sample")}. Then makes the table. Undo restores the old timeline`;
   });
 
-  onPress(make, () => {
-    if (found?.table) edits.edit((document) => ({ ...document, segment_table: found.table }), "Make a segment table", { drawing: true });
-  }, toast);
+  onPress(
+    make,
+    () => {
+      if (found?.table)
+        edits.edit((document) => ({ ...document, segment_table: found.table }), "Make a segment table", {
+          drawing: true,
+        });
+    },
+    toast,
+  );
   roomy.addEventListener("click", () => {
     const { options, timeline, segment_table: table } = offer;
-    edits.edit((document) => ({ ...document, timeline, options: { ...document.options, phase_knots: options.phase_knots, closing_knots: options.closing_knots }, segment_table: table }),
-      `Make a segment table with phases of ${options.phase_knots} samples`, { drawing: true });
+    edits.edit(
+      (document) => ({
+        ...document,
+        timeline,
+        options: {
+          ...document.options,
+          phase_knots: options.phase_knots,
+          closing_knots: options.closing_knots,
+        },
+        segment_table: table,
+      }),
+      `Make a segment table with phases of ${options.phase_knots} samples`,
+      { drawing: true },
+    );
   });
-  store.watch(({ view }) => [view?.id, view?.revision], (state) => {
-    const { view } = state;
-    if (!view || view.document.segment_table || view.document.sequence?.length) return;
-    setAllowed(make, "The studio is looking for a table that fits this timeline.");
-    roomy.hidden = true;
-    request({ id: view.id, revision: view.revision, document: shownDocument(state) });
-  });
+  store.watch(
+    ({ view }) => [view?.id, view?.revision],
+    (state) => {
+      const { view } = state;
+      if (!view || view.document.segment_table || view.document.sequence?.length) return;
+      setAllowed(make, "The studio is looking for a table that fits this timeline.");
+      roomy.hidden = true;
+      request({ id: view.id, revision: view.revision, document: shownDocument(state) });
+    },
+  );
   return element;
 }

@@ -3,7 +3,15 @@
 import { capital, counted } from "../lib/format.js";
 import { clamp } from "../lib/clamp.js";
 import { plainCell } from "../lib/table_cell.js";
-import { errorSentence, errorsOf, placeAfter, placeBefore, rowName, waitAt, walked } from "../document/segment_sheet.js";
+import {
+  errorSentence,
+  errorsOf,
+  placeAfter,
+  placeBefore,
+  rowName,
+  waitAt,
+  walked,
+} from "../document/segment_sheet.js";
 
 const MOST_SAMPLES = 2000;
 
@@ -31,13 +39,18 @@ const put = (sheet, cells, label) => {
 
 const cellsOf = ({ rows, feet }) => {
   const cells = [];
-  for (let row = rows[0]; row <= rows[1]; row += 1) for (let foot = feet[0]; foot <= feet[1]; foot += 1) cells.push([row, foot]);
+  for (let row = rows[0]; row <= rows[1]; row += 1)
+    for (let foot = feet[0]; foot <= feet[1]; foot += 1) cells.push([row, foot]);
   return cells;
 };
 
 /** One segment into every cell of a range. */
 export const setName = (sheet, range, name) =>
-  put(sheet, cellsOf(range).map(([row, foot]) => [row, foot, name]), `${capital(rangeName(sheet, range))} to ${name}`);
+  put(
+    sheet,
+    cellsOf(range).map(([row, foot]) => [row, foot, name]),
+    `${capital(rangeName(sheet, range))} to ${name}`,
+  );
 
 /** Waits at the position where each foot is, as Delete does. */
 export function setWaits(sheet, range) {
@@ -46,9 +59,13 @@ export function setWaits(sheet, range) {
     const first = range.rows[0];
     const place = placeBefore(sheet, first, foot) ?? sheet.words.segments[sheet.rows[first][foot]]?.start;
     const name = waitAt(sheet, place);
-    if (!name) return { reason: `Foot ${foot + 1} cannot wait in ${rowName(sheet, first)}. `
-      + `Before this segment, foot ${foot + 1} is at ${place}, and no segment waits at ${place}. `
-      + "Add such a segment under Vocabulary." };
+    if (!name)
+      return {
+        reason:
+          `Foot ${foot + 1} cannot wait in ${rowName(sheet, first)}. `
+          + `Before this segment, foot ${foot + 1} is at ${place}, and no segment waits at ${place}. `
+          + "Add such a segment under Vocabulary.",
+      };
     for (let row = first; row <= range.rows[1]; row += 1) cells.push([row, foot, name]);
   }
   return put(sheet, cells, `${capital(rangeName(sheet, range))} to waiting`);
@@ -58,7 +75,11 @@ export function setWaits(sheet, range) {
 export function fillDown(sheet, range) {
   const from = range.rows[0] === range.rows[1] ? range.rows[0] - 1 : range.rows[0];
   if (from < 0) return { reason: "The first row cannot be filled, because no row is above the first row." };
-  return put(sheet, cellsOf(range).map(([row, foot]) => [row, foot, sheet.rows[from][foot]]), `Fill down ${rangeName(sheet, range)}`);
+  return put(
+    sheet,
+    cellsOf(range).map(([row, foot]) => [row, foot, sheet.rows[from][foot]]),
+    `Fill down ${rangeName(sheet, range)}`,
+  );
 }
 
 /**
@@ -70,21 +91,43 @@ export function paste(sheet, range, names) {
   const nameOf = (cell) => known.get(plainCell(cell).toLowerCase()) ?? known.get(cell.toLowerCase());
   const [top, left] = [range.rows[0], range.feet[0]];
   const alone = names.length === 1 && names[0].length === 1;
-  const block = alone ? cellsOf(range).map(([row, foot]) => [row, foot, names[0][0]]) : names.flatMap((row, down) => row.map((name, right) => [top + down, left + right, name]));
+  const block = alone
+    ? cellsOf(range).map(([row, foot]) => [row, foot, names[0][0]])
+    : names.flatMap((row, down) => row.map((name, right) => [top + down, left + right, name]));
   const fitting = block.filter(([row, foot]) => row < sheet.rows.length && foot < sheet.legs);
   const wrong = fitting.find(([, , name]) => !nameOf(name));
-  if (wrong) return { reason: `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: `
-    + `there is no segment “${wrong[2]}”. The known segments are ${[...known.values()].join(", ")}.` };
+  if (wrong)
+    return {
+      reason:
+        `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: `
+        + `there is no segment “${wrong[2]}”. The known segments are ${[...known.values()].join(", ")}.`,
+    };
   const cells = fitting.map(([row, foot, name]) => [row, foot, nameOf(name)]);
-  const [below, beside] = [top + names.length - sheet.rows.length, left + Math.max(...names.map((row) => row.length)) - sheet.legs];
-  const missing = alone ? [] : [below > 0 && `${counted(below, "row")} below the last segment`, beside > 0 && `${counted(beside, "column")} after the last foot`].filter(Boolean);
-  const last = [Math.min(top + names.length, sheet.rows.length) - 1, Math.min(left + Math.max(...names.map((row) => row.length)), sheet.legs) - 1];
+  const [below, beside] = [
+    top + names.length - sheet.rows.length,
+    left + Math.max(...names.map((row) => row.length)) - sheet.legs,
+  ];
+  const missing = alone
+    ? []
+    : [
+        below > 0 && `${counted(below, "row")} below the last segment`,
+        beside > 0 && `${counted(beside, "column")} after the last foot`,
+      ].filter(Boolean);
+  const last = [
+    Math.min(top + names.length, sheet.rows.length) - 1,
+    Math.min(left + Math.max(...names.map((row) => row.length)), sheet.legs) - 1,
+  ];
   const filled = alone ? range : { rows: [top, last[0]], feet: [left, last[1]] };
   const outcome = put(sheet, cells, `Paste into ${rangeName(sheet, filled)}`);
   const broken = outcome.change && errorsOf(outcome.change(sheet)).find(({ stops }) => stops);
   if (broken) return { reason: `Not pasted. ${errorSentence(sheet, broken)} The table has not changed.` };
-  return { ...outcome, range: filled, note: missing.length
-    ? `Some of the copied segments did not fit and were not pasted: ${missing.join(" and ")}.` : null };
+  return {
+    ...outcome,
+    range: filled,
+    note: missing.length
+      ? `Some of the copied segments did not fit and were not pasted: ${missing.join(" and ")}.`
+      : null,
+  };
 }
 
 /** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` if it is the link's. */
@@ -92,20 +135,39 @@ export function insertRow(sheet, after, inLink = false) {
   const names = [];
   const before = inLink && after < sheet.count ? sheet.to - 1 : after;
   for (let foot = 0; foot < sheet.legs; foot += 1) {
-    const place = before < 0 ? sheet.words.segments[sheet.rows[0][foot]]?.start : placeAfter(sheet, before, foot);
+    const place =
+      before < 0 ? sheet.words.segments[sheet.rows[0][foot]]?.start : placeAfter(sheet, before, foot);
     const name = waitAt(sheet, place);
-    if (!name) return { reason: `No segment can be inserted here. `
-      + `Foot ${foot + 1} is in the air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no `
-      + `segment waits at ${place}. Insert before or after the step of foot ${foot + 1} instead.` };
+    if (!name)
+      return {
+        reason:
+          `No segment can be inserted here. `
+          + `Foot ${foot + 1} is in the air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no `
+          + `segment waits at ${place}. Insert before or after the step of foot ${foot + 1} instead.`,
+      };
     names.push(name);
   }
   const change = (now) => {
     const rows = [...now.rows.slice(0, after + 1), names, ...now.rows.slice(after + 1)];
     if (inLink) return { ...now, rows };
-    return { ...now, rows, count: now.count + 1, from: now.from + Number(after + 2 <= now.from), to: now.to + Number(after + 1 <= now.to) };
+    return {
+      ...now,
+      rows,
+      count: now.count + 1,
+      from: now.from + Number(after + 2 <= now.from),
+      to: now.to + Number(after + 1 <= now.to),
+    };
   };
   const moved = ([row, foot]) => [row + Number(row > after), foot];
-  return { change, moved, label: after < 0 ? "Insert a segment at the beginning" : `Insert ${inLink && after < sheet.count ? `before ${rowName(sheet, after + 1)}` : `after ${rowName(sheet, after)}`}`, kept: [] };
+  return {
+    change,
+    moved,
+    label:
+      after < 0
+        ? "Insert a segment at the beginning"
+        : `Insert ${inLink && after < sheet.count ? `before ${rowName(sheet, after + 1)}` : `after ${rowName(sheet, after)}`}`,
+    kept: [],
+  };
 }
 
 /** The sheet without some rows; the repeating part shrinks with them. */
@@ -120,8 +182,17 @@ export function removeRows(sheet, [first, last]) {
     const from = clamp(now.from - gone(now.from - 1), 1, count);
     return { ...now, rows, count, from, to: clamp(now.to - gone(now.to), from, count) };
   };
-  const moved = ([row, foot]) => (row < first ? [row, foot] : row > last ? [row - (last - first + 1), foot] : null);
-  return { change, moved, label: first === last ? `Remove ${rowName(sheet, first)}` : `Remove ${rowName(sheet, first)} to ${rowName(sheet, last)}`, kept: [] };
+  const moved = ([row, foot]) =>
+    row < first ? [row, foot] : row > last ? [row - (last - first + 1), foot] : null;
+  return {
+    change,
+    moved,
+    label:
+      first === last
+        ? `Remove ${rowName(sheet, first)}`
+        : `Remove ${rowName(sheet, first)} to ${rowName(sheet, last)}`,
+    kept: [],
+  };
 }
 
 /** A first row of the link, in which every foot goes or waits so that the table goes on. */
@@ -130,19 +201,39 @@ export function addLinkRow(sheet) {
     const last = (sheet.rows.length > sheet.count ? sheet.rows.length : sheet.to) - 1;
     return waitAt(sheet, placeAfter(sheet, last, foot)) ?? sheet.rows[last][foot];
   });
-  return { change: (now) => ({ ...now, rows: [...now.rows, names] }), label: "Add a segment to the link", kept: [] };
+  return {
+    change: (now) => ({ ...now, rows: [...now.rows, names] }),
+    label: "Add a segment to the link",
+    kept: [],
+  };
 }
 
 /** One of the table's numbers: `samples`, `from` or `to`. */
 export function setNumber(sheet, field, value) {
   const words = { samples: "Samples a segment", from: "Repeat from segment", to: "Repeat to segment" };
   const [least, most, why] = {
-    samples: [2, Math.floor(MOST_SAMPLES / walked(sheet).length), `a timeline has at most ${MOST_SAMPLES} `
-      + `samples`],
-    from: [1, sheet.to, `the repeating part ends with segment ${sheet.to}`], to: [sheet.from, sheet.count, `the repeating part begins with segment ${sheet.from} and the table has ${counted(sheet.count, "segment")}`],
+    samples: [
+      2,
+      Math.floor(MOST_SAMPLES / walked(sheet).length),
+      `a timeline has at most ${MOST_SAMPLES} ` + `samples`,
+    ],
+    from: [1, sheet.to, `the repeating part ends with segment ${sheet.to}`],
+    to: [
+      sheet.from,
+      sheet.count,
+      `the repeating part begins with segment ${sheet.from} and the table has ${counted(sheet.count, "segment")}`,
+    ],
   }[field];
   if (sheet[field] === value) return { reason: "The field already has this value." };
-  if (value < least || value > most) return { reason: `“${words[field]}” cannot be ${value}. `
-    + `The value must lie between ${least} and ${most}, because ${why}.` };
-  return { change: (now) => ({ ...now, [field]: value, toEnd: field === "to" ? false : now.toEnd }), label: `${words[field]} ${field === "samples" ? "to " : ""}${value}`, kept: [] };
+  if (value < least || value > most)
+    return {
+      reason:
+        `“${words[field]}” cannot be ${value}. `
+        + `The value must lie between ${least} and ${most}, because ${why}.`,
+    };
+  return {
+    change: (now) => ({ ...now, [field]: value, toEnd: field === "to" ? false : now.toEnd }),
+    label: `${words[field]} ${field === "samples" ? "to " : ""}${value}`,
+    kept: [],
+  };
 }

@@ -3,7 +3,8 @@
 import { h, setAttribute, setText } from "../lib/dom.js";
 
 const FEW_FEET = 4;
-const LINK = "Between two iterations, the gait uses the link "
+const LINK =
+  "Between two iterations, the gait uses the link "
   + "instead of the segments before and after the repeating part";
 const REPEATED = "Every iteration of the gait contains this segment once";
 const FIRST = "The gait contains this segment only once, at the beginning";
@@ -11,25 +12,56 @@ const LAST = "The gait contains this segment only once, at the end";
 const WAYS = { true: "in the air", false: "on the ground" };
 
 function headRow(legs, roles) {
-  return h("div", { role: "row" }, h("div", { role: "columnheader", title: "Segment", text: "#" }),
+  return h(
+    "div",
+    { role: "row" },
+    h("div", { role: "columnheader", title: "Segment", text: "#" }),
     ...Array.from({ length: legs }, (_, foot) =>
-      h("div", { role: "columnheader", "aria-colindex": foot + 2, title: `Foot ${foot + 1}${roles[foot] ? ` (${roles[foot]})` : ""}`, data: { foot: foot + 1 } }, h("i", { class: "foot-dot" }), h("span", { text: String(foot + 1) }), legs <= FEW_FEET && roles[foot])));
+      h(
+        "div",
+        {
+          role: "columnheader",
+          "aria-colindex": foot + 2,
+          title: `Foot ${foot + 1}${roles[foot] ? ` (${roles[foot]})` : ""}`,
+          data: { foot: foot + 1 },
+        },
+        h("i", { class: "foot-dot" }),
+        h("span", { text: String(foot + 1) }),
+        legs <= FEW_FEET && roles[foot],
+      ),
+    ),
+  );
 }
 
 function bodyRow(sheet, row) {
   const inLink = row >= sheet.count;
   const number = inLink ? `L${row - sheet.count + 1}` : String(row + 1);
   const head = h("div", { role: "rowheader", text: number });
-  const cells = Array.from({ length: sheet.legs }, (_, foot) => h("div", { role: "gridcell", tabindex: "-1", "aria-colindex": foot + 2, "aria-selected": "false", data: { foot: foot + 1 } }));
+  const cells = Array.from({ length: sheet.legs }, (_, foot) =>
+    h("div", {
+      role: "gridcell",
+      tabindex: "-1",
+      "aria-colindex": foot + 2,
+      "aria-selected": "false",
+      data: { foot: foot + 1 },
+    }),
+  );
   const name = inLink ? `Link segment ${row - sheet.count + 1}` : `Segment ${row + 1}`;
-  const element = h("div", { role: "row", "aria-label": name, data: inLink ? { link: "" } : {} }, head, ...cells);
+  const element = h(
+    "div",
+    { role: "row", "aria-label": name, data: inLink ? { link: "" } : {} },
+    head,
+    ...cells,
+  );
   return { element, head, cells };
 }
 
 function drawCell(cell, sheet, row, foot, error) {
   const name = sheet.rows[row][foot];
   const segment = sheet.words.segments[name];
-  const way = segment ? `${segment.start === segment.end ? `waits at ${segment.start}` : `${segment.start} → ${segment.end}`}, ${WAYS[segment.swing]}` : "no such segment";
+  const way = segment
+    ? `${segment.start === segment.end ? `waits at ${segment.start}` : `${segment.start} → ${segment.end}`}, ${WAYS[segment.swing]}`
+    : "no such segment";
   setText(cell, name);
   setAttribute(cell, "title", error ? `Foot ${foot + 1}: ${error.sentence}` : `${name}: ${way}`);
   setAttribute(cell, "aria-invalid", error ? "true" : null);
@@ -49,10 +81,24 @@ export function createSegmentSheetGrid(grid, addLink) {
     parts = sheet.rows.map((_, row) => bodyRow(sheet, row));
     const elements = parts.map(({ element }) => element);
     const linked = sheet.rows.length > sheet.count;
-    const bridge = h("div", { role: "row", class: "bridge" }, h("div", { role: "rowheader", title: LINK },
-      "Link", h("span", { text: linked ? "connects two iterations" : "none" }),
-      linked ? null : h("button", { class: "link", text: "Add", title: "Add a segment that connects one "
-        + "iteration with the next iteration", on: { click: addLink } })));
+    const bridge = h(
+      "div",
+      { role: "row", class: "bridge" },
+      h(
+        "div",
+        { role: "rowheader", title: LINK },
+        "Link",
+        h("span", { text: linked ? "connects two iterations" : "none" }),
+        linked
+          ? null
+          : h("button", {
+              class: "link",
+              text: "Add",
+              title: "Add a segment that connects one " + "iteration with the next iteration",
+              on: { click: addLink },
+            }),
+      ),
+    );
     elements.splice(sheet.count, 0, bridge);
     grid.replaceChildren(headRow(sheet.legs, roles), ...elements);
     grid.style.setProperty("--feet", sheet.legs);
@@ -72,8 +118,17 @@ export function createSegmentSheetGrid(grid, addLink) {
       parts.forEach(({ element, head, cells }, row) => {
         const repeats = row >= sheet.from - 1 && row < sheet.to;
         element.toggleAttribute("data-repeats", repeats);
-        setAttribute(head, "title", row >= sheet.count ? "Between two iterations" : repeats ? REPEATED
-          : row < sheet.from - 1 ? FIRST : LAST);
+        setAttribute(
+          head,
+          "title",
+          row >= sheet.count
+            ? "Between two iterations"
+            : repeats
+              ? REPEATED
+              : row < sheet.from - 1
+                ? FIRST
+                : LAST,
+        );
         cells.forEach((cell, foot) => drawCell(cell, sheet, row, foot, found.get(`${row},${foot}`)));
       });
       return isNew;
@@ -91,9 +146,15 @@ export function createSegmentSheetGrid(grid, addLink) {
       return row < 0 ? null : row;
     },
     select({ rows, feet }) {
-      parts.forEach(({ cells }, row) => cells.forEach((cell, foot) => {
-        setAttribute(cell, "aria-selected", String(row >= rows[0] && row <= rows[1] && foot >= feet[0] && foot <= feet[1]));
-      }));
+      parts.forEach(({ cells }, row) =>
+        cells.forEach((cell, foot) => {
+          setAttribute(
+            cell,
+            "aria-selected",
+            String(row >= rows[0] && row <= rows[1] && foot >= feet[0] && foot <= feet[1]),
+          );
+        }),
+      );
     },
     forget() {
       parts = [];

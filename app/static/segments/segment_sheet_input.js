@@ -9,19 +9,30 @@ import { tableCell } from "../lib/table_cell.js";
 import { announce, toast } from "../lib/toasts.js";
 import { commit, shownSegmentSheet } from "../state/segment_draft.js";
 import { openSegmentChooser } from "./segment_sheet_chooser.js";
-import { addLinkRow, fillDown, insertRow, paste, removeRows, setName, setWaits } from "./segment_sheet_edits.js";
+import {
+  addLinkRow,
+  fillDown,
+  insertRow,
+  paste,
+  removeRows,
+  setName,
+  setWaits,
+} from "./segment_sheet_edits.js";
 
 const ordered = (a, b) => [Math.min(a, b), Math.max(a, b)];
 const nearest = ({ rows, legs }, [row, foot]) => [clamp(row, 0, rows.length - 1), clamp(foot, 0, legs - 1)];
 
 /**
- * @param {object} store
- * @param {object} edits
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
  * @param {HTMLElement} grid
- * @param {object} cells see `createSegmentSheetGrid`
+ * @param {Record<string, any>} cells see `createSegmentSheetGrid`
  */
 export function mountSegmentSheetInput(store, edits, grid, cells) {
-  let [anchor, head] = [[0, 0], [0, 0]];
+  let [anchor, head] = [
+    [0, 0],
+    [0, 0],
+  ];
   let own = null;
   let chooser = null;
   let dragging = false;
@@ -87,7 +98,11 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
   function choose(text) {
     const place = head;
     const chosen = { rows: [place[0], place[0]], feet: [place[1], place[1]] };
-    const next = { right: [place[0], place[1] + 1], left: [place[0], place[1] - 1], down: [place[0] + 1, place[1]] };
+    const next = {
+      right: [place[0], place[1] + 1],
+      left: [place[0], place[1] - 1],
+      down: [place[0] + 1, place[1]],
+    };
     go(place);
     chooser = openSegmentChooser(cells.cell(place), sheet(), place, {
       text,
@@ -107,8 +122,14 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
     const [lastRow, lastFoot] = [sheet().rows.length - 1, sheet().legs - 1];
     const far = event.ctrlKey || event.metaKey;
     return {
-      ArrowUp: [far ? 0 : row - 1, foot], ArrowDown: [far ? lastRow : row + 1, foot], ArrowLeft: [row, far ? 0 : foot - 1], ArrowRight: [row, far ? lastFoot : foot + 1],
-      Home: [far ? 0 : row, 0], End: [far ? lastRow : row, lastFoot], PageUp: [row - 8, foot], PageDown: [row + 8, foot],
+      ArrowUp: [far ? 0 : row - 1, foot],
+      ArrowDown: [far ? lastRow : row + 1, foot],
+      ArrowLeft: [row, far ? 0 : foot - 1],
+      ArrowRight: [row, far ? lastFoot : foot + 1],
+      Home: [far ? 0 : row, 0],
+      End: [far ? lastRow : row, lastFoot],
+      PageUp: [row - 8, foot],
+      PageDown: [row + 8, foot],
     }[event.key];
   }
 
@@ -116,7 +137,11 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
     const control = ctrlKey || metaKey;
     if (control && key === "Delete") return actions.remove;
     if (control && key.toLowerCase() === "d") return actions.fill;
-    if (control && key.toLowerCase() === "a") return () => { anchor = [0, 0]; go([sheet().count - 1, sheet().legs - 1], true); };
+    if (control && key.toLowerCase() === "a")
+      return () => {
+        anchor = [0, 0];
+        go([sheet().count - 1, sheet().legs - 1], true);
+      };
     if (control) return null;
     if (key === "Insert") return shiftKey ? null : () => actions.insert(altKey);
     if (altKey) return null;
@@ -145,7 +170,10 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
       if (!event.shiftKey) anchor = [row, 0];
       return go([row, sheet().legs - 1], true);
     }
-    const again = event.pointerType !== "mouse" && place.join() === head.join() && document.activeElement === cells.cell(head);
+    const again =
+      event.pointerType !== "mouse"
+      && place.join() === head.join()
+      && document.activeElement === cells.cell(head);
     go(place, event.shiftKey);
     if (again) return choose("");
     dragging = true;
@@ -160,30 +188,46 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
   grid.addEventListener("keydown", press);
   grid.addEventListener("pointerdown", begin);
   grid.addEventListener("pointermove", drag);
-  for (const end of ["pointerup", "pointercancel"]) grid.addEventListener(end, () => { dragging = false; });
+  for (const end of ["pointerup", "pointercancel"])
+    grid.addEventListener(end, () => {
+      dragging = false;
+    });
   // A double click comes from the grid, which holds the pointer.
-  grid.addEventListener("dblclick", () => { if (pressed) choose(""); });
+  grid.addEventListener("dblclick", () => {
+    if (pressed) choose("");
+  });
   mountClipboard(grid, sheet, range, run, (filled) => {
     anchor = [filled.rows[0], filled.feet[0]];
     go([filled.rows[1], filled.feet[1]], true);
   });
 
-  store.watch(({ selected }) => [selected], () => {
-    chooser?.close();
-    [anchor, head, own] = [[0, 0], [0, 0], null];
-  });
-  store.watch((state) => [state.selection], ({ selection }) => {
-    const now = sheet();
-    if (!now || selection === own) return;
-    own = selection;
-    const rows = selection && rowsOf(now, selection.samples);
-    if (rows) [anchor, head] = [[rows[0], selection.feet[0]], [rows[1], Math.min(selection.feet[1], now.legs - 1)]];
-    else anchor = head;
-    show();
-  });
+  store.watch(
+    ({ selected }) => [selected],
+    () => {
+      chooser?.close();
+      [anchor, head, own] = [[0, 0], [0, 0], null];
+    },
+  );
+  store.watch(
+    (state) => [state.selection],
+    ({ selection }) => {
+      const now = sheet();
+      if (!now || selection === own) return;
+      own = selection;
+      const rows = selection && rowsOf(now, selection.samples);
+      if (rows)
+        [anchor, head] = [
+          [rows[0], selection.feet[0]],
+          [rows[1], Math.min(selection.feet[1], now.legs - 1)],
+        ];
+      else anchor = head;
+      show();
+    },
+  );
 
   return {
-    ...actions, show,
+    ...actions,
+    show,
     range,
     escape: () => chooser?.close() ?? false,
     hasFocus: () => grid.contains(document.activeElement),
@@ -193,12 +237,20 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
 
 /** Ctrl+C, Ctrl+X and Ctrl+V while the focus is in the grid. */
 function mountClipboard(grid, sheet, range, run, select) {
-  const inside = () => sheet() && document.activeElement?.matches("[role=gridcell]") && grid.contains(document.activeElement);
+  const inside = () =>
+    sheet() && document.activeElement?.matches("[role=gridcell]") && grid.contains(document.activeElement);
   for (const type of ["copy", "cut"]) {
     document.addEventListener(type, (event) => {
       if (!inside()) return;
       const { rows, feet } = range();
-      event.clipboardData.setData("text/plain", textOf(sheet().rows.slice(rows[0], rows[1] + 1).map((row) => row.slice(feet[0], feet[1] + 1))));
+      event.clipboardData.setData(
+        "text/plain",
+        textOf(
+          sheet()
+            .rows.slice(rows[0], rows[1] + 1)
+            .map((row) => row.slice(feet[0], feet[1] + 1)),
+        ),
+      );
       event.preventDefault();
       if (type === "cut") run(setWaits(sheet(), range()));
       else announce("Copied.");
@@ -221,7 +273,8 @@ const textOf = (rows) => rows.map((row) => row.map(tableCell).join("\t")).join("
 function fieldsOf(line, separator) {
   const fields = [];
   const pattern = new RegExp(`${separator}[^\\S${separator}]*(?:"((?:[^"]|"")*)"|([^${separator}]*))`, "g");
-  for (const [, quoted, plain] of `${separator}${line}`.matchAll(pattern)) fields.push((quoted === undefined ? plain : quoted.replaceAll('""', '"')).trim());
+  for (const [, quoted, plain] of `${separator}${line}`.matchAll(pattern))
+    fields.push((quoted === undefined ? plain : quoted.replaceAll('""', '"')).trim());
   return fields;
 }
 

@@ -3,29 +3,53 @@
 import { capital, lowered } from "../lib/format.js";
 import { api } from "../api/gaits.js";
 import { h } from "../lib/dom.js";
-import { commit, segmentDraftOf, dropSegmentDraft, protectedCells, shownSegmentSheet } from "../state/segment_draft.js";
+import {
+  commit,
+  segmentDraftOf,
+  dropSegmentDraft,
+  protectedCells,
+  shownSegmentSheet,
+} from "../state/segment_draft.js";
 import { errorSentence, errorsOf, ownRow, segmentSheetOf, tableOf } from "../document/segment_sheet.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument } from "../state/store.js";
 import { report } from "../lib/toasts.js";
 
-const range = (first, count) => (count === 1 ? `segment ${first + 1}` : `segments ${first + 1}–${first + count}`);
+const range = (first, count) =>
+  count === 1 ? `segment ${first + 1}` : `segments ${first + 1}–${first + count}`;
 
 /** A repair of the server as `{label, help, change}`. */
 function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   const own = Array.from({ length: sheet.legs }, (_, one) => one).find((one) => ownRow(sheet, one) === foot);
   const words = names.join(", ");
-  const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${capital(range(first, names.length))} to ${words}`;
-  const help = inserted ? `Inserts ${range(first, names.length)}, in which the other feet wait`
+  const label = !names.length
+    ? "Make the link fit"
+    : inserted
+      ? `Insert ${words}`
+      : `${capital(range(first, names.length))} to ${words}`;
+  const help = inserted
+    ? `Inserts ${range(first, names.length)}, in which the other feet wait`
     : `Changes the segments of foot ${own + 1}. Changes the link too, if necessary`;
   const mended = segmentSheetOf({ ...document, segment_table: table });
-  const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
-  return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${lowered(label)}`, kept: [] } };
+  const moved =
+    inserted && names.length
+      ? ([row, column]) => [row + (row >= first ? names.length : 0), column]
+      : undefined;
+  return {
+    label,
+    help,
+    step: {
+      moved,
+      change: (now) => ({ ...mended, iterations: now.iterations }),
+      label: `Foot ${own + 1}: ${lowered(label)}`,
+      kept: [],
+    },
+  };
 }
 
 /**
- * @param {object} store
- * @param {object} edits
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
  * @param {HTMLElement} note
  * @param {() => void} focus gives the focus back to the grid
  */
@@ -45,7 +69,10 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
   });
 
   function request(sheet) {
-    const kept = protectedCells(segmentDraftOf(store.state).steps).map(([row, foot]) => [ownRow(sheet, foot), row]);
+    const kept = protectedCells(segmentDraftOf(store.state).steps).map(([row, foot]) => [
+      ownRow(sheet, foot),
+      row,
+    ]);
     const body = { table: tableOf(sheet), kept };
     const text = JSON.stringify(body);
     if (text === requested) return;
@@ -53,7 +80,10 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
     load({ text, sheet, document: shownDocument(store.state), body });
   }
 
-  const act = (does) => () => { does(); focus(); };
+  const act = (does) => () => {
+    does();
+    focus();
+  };
 
   function draw() {
     const sheet = shownSegmentSheet(store.state);
@@ -67,15 +97,27 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
     }
     note.dataset.tone = stops ? "bad" : "caution";
     const others = errors.length - 1;
-    const more = others > 1 ? ` ${others} more cells have errors.`
-      : others === 1 ? " 1 more cell has an error." : "";
-    const after = stops ? "The gait uses its last valid table until you correct all errors."
+    const more =
+      others > 1 ? ` ${others} more cells have errors.` : others === 1 ? " 1 more cell has an error." : "";
+    const after = stops
+      ? "The gait uses its last valid table until you correct all errors."
       : "The gait can have only one iteration until you correct all errors.";
-    note.replaceChildren(h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
-      h("div", { class: "buttons" },
-        ...offers.map(({ label, help, step }) => h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } })),
-        stops && h("button", { text: "Take it back", title: "Restores the last valid table. "
-          + "Ctrl+Z undoes only the last change", on: { click: act(() => dropSegmentDraft(store)) } })));
+    note.replaceChildren(
+      h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
+      h(
+        "div",
+        { class: "buttons" },
+        ...offers.map(({ label, help, step }) =>
+          h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } }),
+        ),
+        stops
+          && h("button", {
+            text: "Take it back",
+            title: "Restores the last valid table. " + "Ctrl+Z undoes only the last change",
+            on: { click: act(() => dropSegmentDraft(store)) },
+          }),
+      ),
+    );
     request(sheet);
   }
 

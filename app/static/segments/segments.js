@@ -6,7 +6,13 @@ import { fixed } from "../lib/format.js";
 import { oneTabStop } from "../lib/tab_stop.js";
 import { toast } from "../lib/toasts.js";
 import { numberField } from "../state/fields.js";
-import { commit, protectedCells, segmentDraftOf, segmentSheetsOf, shownSegmentSheet } from "../state/segment_draft.js";
+import {
+  commit,
+  protectedCells,
+  segmentDraftOf,
+  segmentSheetsOf,
+  shownSegmentSheet,
+} from "../state/segment_draft.js";
 import { shownDocument } from "../state/store.js";
 import { createDefinitions, isTyped } from "./segment_definitions.js";
 import { mountSegmentSheetCreation } from "./segment_sheet_creation.js";
@@ -17,27 +23,63 @@ import { mountSegmentSheetRepairs } from "./segment_sheet_repairs.js";
 
 /** The table's three numbers, each an edit of its own. */
 function numberFields(store, edits, run) {
-  const field = (label, name, key, most, help) => numberField(store, edits, {
-    label, name, unit: "", min: key === "samples" ? 2 : 1, max: most, step: 1, decimals: 0, whole: true, help,
-    read: () => shownSegmentSheet(store.state)?.[key] ?? null, act: (value) => run(setNumber(shownSegmentSheet(store.state), key, value)),
-  });
+  const field = (label, name, key, most, help) =>
+    numberField(store, edits, {
+      label,
+      name,
+      unit: "",
+      min: key === "samples" ? 2 : 1,
+      max: most,
+      step: 1,
+      decimals: 0,
+      whole: true,
+      help,
+      read: () => shownSegmentSheet(store.state)?.[key] ?? null,
+      act: (value) => run(setNumber(shownSegmentSheet(store.state), key, value)),
+    });
   return [
-    field("Samples", "Samples a segment", "samples", 200, "Number of samples of each segment, including "
-      + "its first and last sample"),
-    field("Repeat", "Repeat from segment", "from", 999, "First segment of the part that every iteration repeats"),
+    field(
+      "Samples",
+      "Samples a segment",
+      "samples",
+      200,
+      "Number of samples of each segment, including " + "its first and last sample",
+    ),
+    field(
+      "Repeat",
+      "Repeat from segment",
+      "from",
+      999,
+      "First segment of the part that every iteration repeats",
+    ),
     field("to", "Repeat to segment", "to", 999, "Last segment of the part that every iteration repeats"),
   ];
 }
 
 function tools(input, toggleDefinitions) {
   const button = (text, title, act) => h("button", { text, title, on: { click: act } });
-  const words = h("button", { text: "Vocabulary", title: "Shows the named positions and segments of "
-    + "this table", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleDefinitions(words) } });
-  const bar = h("div", { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
-    button("Insert", "Adds a segment in which every foot waits, after the selected segments (key Insert) "
-      + "or before them (Alt+Insert)", () => input.insert()),
+  const words = h("button", {
+    text: "Vocabulary",
+    title: "Shows the named positions and segments of " + "this table",
+    "aria-expanded": "false",
+    "aria-controls": "segment-words",
+    on: { click: () => toggleDefinitions(words) },
+  });
+  const bar = h(
+    "div",
+    { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
+    button(
+      "Insert",
+      "Adds a segment in which every foot waits, after the selected segments (key Insert) "
+        + "or before them (Alt+Insert)",
+      () => input.insert(),
+    ),
     button("Remove", "Removes the selected segments for all feet (Ctrl+Delete)", () => input.remove()),
-    button("Fill down", "Copies the first selected row into the selected rows below it (Ctrl+D)", () => input.fill()), words);
+    button("Fill down", "Copies the first selected row into the selected rows below it (Ctrl+D)", () =>
+      input.fill(),
+    ),
+    words,
+  );
   oneTabStop(bar, { isToolbar: true });
   return bar;
 }
@@ -45,10 +87,21 @@ function tools(input, toggleDefinitions) {
 /** Builds the section; `escape` closes what is open in it, and returns whether anything was. */
 export function mountSegments(store, edits) {
   const title = h("h2", {}, "Segment table", h("span"));
-  const grid = h("div", { class: "sheet", role: "grid", "aria-label": "Segment table", "aria-multiselectable": "true" });
+  const grid = h("div", {
+    class: "sheet",
+    role: "grid",
+    "aria-label": "Segment table",
+    "aria-multiselectable": "true",
+  });
   const note = h("div", { class: "box-note", role: "status", "aria-label": "Segment table note" });
   const notice = h("p", { class: "box-note", data: { tone: "caution" } });
-  const panel = h("div", { id: "segment-words", class: "words", role: "region", "aria-label": "Vocabulary", hidden: true });
+  const panel = h("div", {
+    id: "segment-words",
+    class: "words",
+    role: "region",
+    "aria-label": "Vocabulary",
+    hidden: true,
+  });
   const run = (outcome) => {
     if (outcome.reason) toast(outcome.reason);
     else commit(store, edits, outcome);
@@ -102,16 +155,26 @@ export function mountSegments(store, edits) {
     if (!panel.hidden) drawDefinitions(sheet);
   }
 
-  new ResizeObserver(() => grid.style.setProperty("--view", `${byId("segments").clientHeight}px`)).observe(byId("segments"));
+  new ResizeObserver(() => grid.style.setProperty("--view", `${byId("segments").clientHeight}px`)).observe(
+    byId("segments"),
+  );
   new ResizeObserver(() => {
     grid.style.setProperty("--note", `${note.offsetHeight}px`);
     if (input.hasFocus()) document.activeElement.scrollIntoView({ block: "nearest" });
   }).observe(note);
   mountSegmentSheetRepairs(store, edits, note, input.focus);
   mountSegmentDrafts(store);
-  const parts = (document) => [document?.segment_table, document?.direction, document?.iterations, document?.timeline.sample_time];
+  const parts = (document) => [
+    document?.segment_table,
+    document?.direction,
+    document?.iterations,
+    document?.timeline.sample_time,
+  ];
   store.watch((state) => [state.view, state.segmentDrafts, ...parts(shownDocument(state))], show);
-  store.watch((state) => [segmentDraftOf(state).steps.length > 0], (state) => grid.toggleAttribute("data-draft", segmentDraftOf(state).steps.length > 0));
+  store.watch(
+    (state) => [segmentDraftOf(state).steps.length > 0],
+    (state) => grid.toggleAttribute("data-draft", segmentDraftOf(state).steps.length > 0),
+  );
   return { escape: input.escape };
 }
 
@@ -138,7 +201,13 @@ function write(id, content) {
 }
 
 /** A restored change: the whole sheet after it, with the cells that repairs leave alone. */
-const stepOf = ({ label, kept, sheet }) => ({ label, kept, moved: () => null, change: ({ iterations }) => ({ ...sheet, iterations }), restored: true });
+const stepOf = ({ label, kept, sheet }) => ({
+  label,
+  kept,
+  moved: () => null,
+  change: ({ iterations }) => ({ ...sheet, iterations }),
+  restored: true,
+});
 
 /** Keeps the drafts of `store.segmentDrafts`, and restores them when their gait is shown again. */
 function mountSegmentDrafts(store) {
@@ -152,8 +221,10 @@ function mountSegmentDrafts(store) {
   function drop(view) {
     put(view.id, null);
     write(view.id, null);
-    toast(`The segment table of “${view.document.name}” was changed in another window. `
-      + `Your changes in this window still had errors and were discarded.`);
+    toast(
+      `The segment table of “${view.document.name}” was changed in another window. `
+        + `Your changes in this window still had errors and were discarded.`,
+    );
   }
 
   function recall(view, base) {
@@ -163,22 +234,39 @@ function mountSegmentDrafts(store) {
     else put(view.id, { steps: content.steps.map(stepOf) });
   }
 
-  store.watch(({ view, segmentDrafts }) => [view, segmentDrafts], (state) => {
-    const { view } = state;
-    if (!view) return;
-    const [base, before] = [baseOf(view), bases.get(view.id)];
-    bases.set(view.id, base);
-    if (before === undefined) {
-      recall(view, base);
-      return;
-    }
-    const { steps } = segmentDraftOf(state);
-    // Restored changes are whole sheets, which stand on the table that they were made on; all of them need one.
-    if (view.document.segment_table ? base !== before && steps.some(({ restored }) => restored) : steps.length) {
-      drop(view);
-      return;
-    }
-    const sheets = steps.length ? segmentSheetsOf(view.document, steps) : [];
-    write(view.id, steps.length ? { base, steps: steps.map(({ label }, index) => ({ label, kept: protectedCells(steps.slice(0, index + 1)), sheet: sheets[index] })) } : null);
-  });
+  store.watch(
+    ({ view, segmentDrafts }) => [view, segmentDrafts],
+    (state) => {
+      const { view } = state;
+      if (!view) return;
+      const [base, before] = [baseOf(view), bases.get(view.id)];
+      bases.set(view.id, base);
+      if (before === undefined) {
+        recall(view, base);
+        return;
+      }
+      const { steps } = segmentDraftOf(state);
+      // Restored changes are whole sheets, which stand on the table that they were made on; all of them need one.
+      if (
+        view.document.segment_table ? base !== before && steps.some(({ restored }) => restored) : steps.length
+      ) {
+        drop(view);
+        return;
+      }
+      const sheets = steps.length ? segmentSheetsOf(view.document, steps) : [];
+      write(
+        view.id,
+        steps.length
+          ? {
+              base,
+              steps: steps.map(({ label }, index) => ({
+                label,
+                kept: protectedCells(steps.slice(0, index + 1)),
+                sheet: sheets[index],
+              })),
+            }
+          : null,
+      );
+    },
+  );
 }

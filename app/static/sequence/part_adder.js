@@ -18,12 +18,13 @@ function choice(line, robot) {
 
 /**
  * A list of all gaits by group, and the button that adds the chosen one; over the parts, so that it stays in place.
- * @param {object} store
- * @param {object} edits
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
  * @returns {HTMLElement}
  */
 export function partAdder(store, edits) {
-  const help = "Choose the gait to add. If you add a sequence, all parts of the sequence are added. "
+  const help =
+    "Choose the gait to add. If you add a sequence, all parts of the sequence are added. "
     + "If a gait cannot be added, the list shows the reason.";
   const select = h("select", { "aria-label": "Gait to add", title: help });
   const act = attempt(async () => {
@@ -33,17 +34,25 @@ export function partAdder(store, edits) {
     await edits.edit(apply, label, { gait });
   });
   const button = h("button", {
-    text: "Add", title: "Adds the chosen gait at the end of the sequence", on: { click: act },
+    text: "Add",
+    title: "Adds the chosen gait at the end of the sequence",
+    on: { click: act },
   });
-  store.watch(({ gaits, selected, view }) => [gaits, selected, isSequence(view?.document)], ({ gaits, selected, view }) => {
-    if (!isSequence(view?.document)) return;
-    const { robot } = gaits.find(({ id }) => id === selected) ?? { robot: null };
-    const chosen = select.value;
-    const groups = Map.groupBy ? Map.groupBy(gaits, ({ group }) => group) : new Map([["Gaits", gaits]]);
-    const choices = (lines) => lines.filter(({ id, problem }) => id !== selected && !problem).map((line) => choice(line, robot));
-    select.replaceChildren(...[...groups].map(([label, lines]) => h("optgroup", { label }, ...choices(lines))));
-    const free = [...select.options].filter((option) => !option.disabled);
-    select.value = (free.find(({ value }) => value === chosen) ?? free[0])?.value ?? "";
-  });
+  store.watch(
+    ({ gaits, selected, view }) => [gaits, selected, isSequence(view?.document)],
+    ({ gaits, selected, view }) => {
+      if (!isSequence(view?.document)) return;
+      const { robot } = gaits.find(({ id }) => id === selected) ?? { robot: null };
+      const chosen = select.value;
+      const groups = Map.groupBy ? Map.groupBy(gaits, ({ group }) => group) : new Map([["Gaits", gaits]]);
+      const choices = (lines) =>
+        lines.filter(({ id, problem }) => id !== selected && !problem).map((line) => choice(line, robot));
+      select.replaceChildren(
+        ...[...groups].map(([label, lines]) => h("optgroup", { label }, ...choices(lines))),
+      );
+      const free = [...select.options].filter((option) => !option.disabled);
+      select.value = (free.find(({ value }) => value === chosen) ?? free[0])?.value ?? "";
+    },
+  );
   return h("div", { class: "part-add" }, select, button);
 }

@@ -23,8 +23,16 @@ function stretch(axis, one, runs, times, playback) {
   const { left, width, seen } = placeOf(axis, one);
   if (!seen) return null;
   const title = `${one.is_transition ? "Transition to " : ""}${one.name}${runs}: ${figuresOf(one)}`;
-  const element = h("div", { class: "stretch", title, data: { source: one.source, ...(one.is_transition ? { transition: "" } : {}) }, on: { click: () => playback.setTime(times[one.first]) } },
-    !one.is_transition && h("span", { text: `${one.name}${runs}` }));
+  const element = h(
+    "div",
+    {
+      class: "stretch",
+      title,
+      data: { source: one.source, ...(one.is_transition ? { transition: "" } : {}) },
+      on: { click: () => playback.setTime(times[one.first]) },
+    },
+    !one.is_transition && h("span", { text: `${one.name}${runs}` }),
+  );
   Object.assign(element.style, { left, width });
   return element;
 }
@@ -41,14 +49,21 @@ function border(axis, { first }) {
 export function mountSequenceBand(store, playback) {
   const [band, borders] = [byId("parts"), h("div", { class: "part-borders" })];
   byId("overlay").prepend(borders);
-  store.watch((state) => [state.view, shownPlan(state), axisKey(state)], (state) => {
-    const on = isSequence(shownDocument(state));
-    band.hidden = !on;
-    setAttribute(byId("timeline"), "aria-readonly", on ? "true" : null);
-    byId("parts-label").hidden = !on;
-    const [axis, plan] = [axisOf(state), shownPlan(state)];
-    const placed = on ? (plan?.parts ?? []).filter(({ first }) => first !== null) : [];
-    band.replaceChildren(...placed.map((one) => stretch(axis, one, runsOf(shownDocument(state), one), plan.times, playback)).filter(Boolean));
-    borders.replaceChildren(...placed.map((one) => border(axis, one)).filter(Boolean));
-  });
+  store.watch(
+    (state) => [state.view, shownPlan(state), axisKey(state)],
+    (state) => {
+      const on = isSequence(shownDocument(state));
+      band.hidden = !on;
+      setAttribute(byId("timeline"), "aria-readonly", on ? "true" : null);
+      byId("parts-label").hidden = !on;
+      const [axis, plan] = [axisOf(state), shownPlan(state)];
+      const placed = on ? (plan?.parts ?? []).filter(({ first }) => first !== null) : [];
+      band.replaceChildren(
+        ...placed
+          .map((one) => stretch(axis, one, runsOf(shownDocument(state), one), plan.times, playback))
+          .filter(Boolean),
+      );
+      borders.replaceChildren(...placed.map((one) => border(axis, one)).filter(Boolean));
+    },
+  );
 }

@@ -6,9 +6,14 @@ import { refusalOf, wholeNumber } from "../lib/field_error.js";
 import { MOST_TIMES } from "../document/sequence_edits.js";
 
 const STATES = {
-  live: ["live", "good"], optimised: ["exact", "good"], manual: ["by hand", "good"], recorded: ["recorded", "good"], draft: ["no motion", "bad"],
+  live: ["live", "good"],
+  optimised: ["exact", "good"],
+  manual: ["by hand", "good"],
+  recorded: ["recorded", "good"],
+  draft: ["no motion", "bad"],
 };
-const HELP = "Drag the part to move it, or press Alt with Up or Down. Delete removes the part. "
+const HELP =
+  "Drag the part to move it, or press Alt with Up or Down. Delete removes the part. "
   + "Enter moves the playhead to the start of the part";
 const DEGREES = 180 / Math.PI;
 
@@ -16,19 +21,42 @@ const DEGREES = 180 / Math.PI;
 export function figuresOf({ travel, turn, duration }) {
   if (!travel) return "";
   const way = Math.hypot(...travel);
-  return [way > 5e-5 && `${mm(way)} mm`, Math.abs(turn) > 1e-4 && `${fixed(turn * DEGREES, 0)}°`, `${fixed(duration)} s`].filter(Boolean).join(" · ");
+  return [
+    way > 5e-5 && `${mm(way)} mm`,
+    Math.abs(turn) > 1e-4 && `${fixed(turn * DEGREES, 0)}°`,
+    `${fixed(duration)} s`,
+  ]
+    .filter(Boolean)
+    .join(" · ");
 }
 
 /** What the body does between two parts. */
 function moveText(move, plan) {
   const rise = plan.body[move.last][2] - plan.body[move.first][2];
-  const words = [Math.abs(rise) > 5e-6 && `${rise > 0 ? "up" : "down"} ${mm(Math.abs(rise))} mm`, figuresOf(move)].filter(Boolean);
+  const words = [
+    Math.abs(rise) > 5e-6 && `${rise > 0 ? "up" : "down"} ${mm(Math.abs(rise))} mm`,
+    figuresOf(move),
+  ].filter(Boolean);
   const feet = move.feet.map((foot) => foot + 1);
-  return feet.length ? `${feet.length > 1 ? "Feet" : "Foot"} ${feet.join(", ")} ${feet.length > 1 ? "step" : "steps"} over · ${fixed(move.duration)} s` : `Body moves ${words.join(" · ")}`;
+  return feet.length
+    ? `${feet.length > 1 ? "Feet" : "Foot"} ${feet.join(", ")} ${feet.length > 1 ? "step" : "steps"} over · ${fixed(move.duration)} s`
+    : `Body moves ${words.join(" · ")}`;
 }
 
 function button(name, symbol, act) {
-  return h("button", { class: "plain icon-only small", "aria-label": name, on: { click: (event) => { if (event.currentTarget.getAttribute("aria-disabled") !== "true") act(); } } }, icon(symbol));
+  return h(
+    "button",
+    {
+      class: "plain icon-only small",
+      "aria-label": name,
+      on: {
+        click: (event) => {
+          if (event.currentTarget.getAttribute("aria-disabled") !== "true") act();
+        },
+      },
+    },
+    icon(symbol),
+  );
 }
 
 /**
@@ -39,13 +67,32 @@ export function partRow(actions) {
   const lead = h("p", { class: "part-lead", role: "gridcell" });
   const [number, text] = [h("span", { class: "part-number" }), h("span", { class: "part-text" })];
   const name = h("div", { class: "part-name", role: "gridcell", tabindex: "-1" }, number, text);
-  const input = h("input", { type: "number", min: 1, max: MOST_TIMES, step: 1, title: `How many times the robot performs this part, 1 to ${MOST_TIMES}` });
-  const [up, down] = [button("Move up", "up", () => actions.move(-1)), button("Move down", "down", () => actions.move(1))];
+  const input = h("input", {
+    type: "number",
+    min: 1,
+    max: MOST_TIMES,
+    step: 1,
+    title: `How many times the robot performs this part, 1 to ${MOST_TIMES}`,
+  });
+  const [up, down] = [
+    button("Move up", "up", () => actions.move(-1)),
+    button("Move down", "down", () => actions.move(1)),
+  ];
   const out = button("Take out", "close", actions.remove);
   const figures = h("span", { class: "number" });
   const [dot, word] = [h("span", { class: "dot" }), h("span", {})];
-  const over = h("button", { class: "link", text: "update", title: "Copies the current version of the gait into this part", on: { click: actions.takeOver } });
-  const through = h("button", { class: "link", text: "without a pause", title: "Joins the repetitions again, so that the robot does not pause between them", on: { click: actions.runThrough } });
+  const over = h("button", {
+    class: "link",
+    text: "update",
+    title: "Copies the current version of the gait into this part",
+    on: { click: actions.takeOver },
+  });
+  const through = h("button", {
+    class: "link",
+    text: "without a pause",
+    title: "Joins the repetitions again, so that the robot does not pause between them",
+    on: { click: actions.runThrough },
+  });
   const refusal = refusalOf(input);
   const giveUp = () => {
     refusal.setError(null);
@@ -60,17 +107,50 @@ export function partRow(actions) {
     if (event.key === "Enter") input.blur();
     if (event.key === "Escape") giveUp();
   });
-  const element = h("div", { class: "part", role: "row" }, lead, name,
-    h("div", { class: "part-times", role: "gridcell" }, input, h("span", { class: "quiet", "aria-hidden": "true", text: "×" })),
-    h("div", { class: "part-buttons", role: "gridcell" }, up, down, out), h("div", { class: "part-refusal", role: "gridcell" }, refusal.element),
-    h("div", { class: "part-state", role: "gridcell" }, figures, h("span", { class: "part-word" }, dot, word, over, through)));
-  return { element, lead, name, number, text, input, refusal, giveUp, up, down, out, figures, dot, word, over, through };
+  const element = h(
+    "div",
+    { class: "part", role: "row" },
+    lead,
+    name,
+    h(
+      "div",
+      { class: "part-times", role: "gridcell" },
+      input,
+      h("span", { class: "quiet", "aria-hidden": "true", text: "×" }),
+    ),
+    h("div", { class: "part-buttons", role: "gridcell" }, up, down, out),
+    h("div", { class: "part-refusal", role: "gridcell" }, refusal.element),
+    h(
+      "div",
+      { class: "part-state", role: "gridcell" },
+      figures,
+      h("span", { class: "part-word" }, dot, word, over, through),
+    ),
+  );
+  return {
+    element,
+    lead,
+    name,
+    number,
+    text,
+    input,
+    refusal,
+    giveUp,
+    up,
+    down,
+    out,
+    figures,
+    dot,
+    word,
+    over,
+    through,
+  };
 }
 
 /**
  * Shows a part in its row.
- * @param {object} row of `partRow`
- * @param {{index: number, count: number, part: object, planned: object|null, move: object|null, source: string|null, plan: object}} what
+ * @param {Record<string, any>} row of `partRow`
+ * @param {{index: number, count: number, part: Record<string, any>, planned: Record<string, any>|null, move: Record<string, any>|null, source: string|null, plan: Record<string, any>}} what
  */
 export function showRow(row, { index, count, part, planned, move, source, plan }) {
   const title = part.gait.name;
@@ -85,19 +165,34 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   Object.assign(row.input.dataset, { shown: String(part.times), part: title });
   if (row.refusal.hasError() && isAnother) row.giveUp();
   if (document.activeElement !== row.input && !row.refusal.hasError()) row.input.value = part.times;
-  setAllowed(row.up, index === 0 ? "The first part cannot move up." : null,
-    `Move “${title}” up (Alt+Up)`);
-  setAllowed(row.down, index === count - 1 ? "The last part cannot move down." : null,
-    `Move “${title}” down (Alt+Down)`);
-  setAllowed(row.out, count === 1 ? "A sequence needs at least one part. "
-    + "Delete the sequence instead." : null, `Take “${title}” out (Delete)`);
+  setAllowed(row.up, index === 0 ? "The first part cannot move up." : null, `Move “${title}” up (Alt+Up)`);
+  setAllowed(
+    row.down,
+    index === count - 1 ? "The last part cannot move down." : null,
+    `Move “${title}” down (Alt+Down)`,
+  );
+  setAllowed(
+    row.out,
+    count === 1 ? "A sequence needs at least one part. " + "Delete the sequence instead." : null,
+    `Take “${title}” out (Delete)`,
+  );
   setText(row.figures, planned ? figuresOf(planned) : "");
-  const [word, tone] = source === "changed" ? ["source changed", "caution"] : planned ? (STATES[planned.source] ?? [planned.source, "quiet"]) : ["…", "quiet"];
+  const [word, tone] =
+    source === "changed"
+      ? ["source changed", "caution"]
+      : planned
+        ? (STATES[planned.source] ?? [planned.source, "quiet"])
+        : ["…", "quiet"];
   row.dot.dataset.tone = tone;
   const isFromRest = Boolean(part.restarts) && part.times > 1;
   setText(row.word, isFromRest ? `${word}, repetitions from rest` : word);
-  setAttribute(row.word, "title", source === "changed"
-    ? "The motion of the original gait has changed since you added or updated this part" : planned?.note);
+  setAttribute(
+    row.word,
+    "title",
+    source === "changed"
+      ? "The motion of the original gait has changed since you added or updated this part"
+      : planned?.note,
+  );
   row.over.hidden = source !== "changed";
   row.through.hidden = !isFromRest || source === "changed";
 }

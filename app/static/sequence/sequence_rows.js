@@ -7,7 +7,10 @@ import { partRow, showRow } from "./sequence_row.js";
 
 /** What of the plan belongs to a part; nothing while the plan is still of another order. */
 function stretchOf(plan, index, name, isTransition) {
-  return plan?.parts?.find((one) => one.part === index && one.is_transition === isTransition && one.name === name) ?? null;
+  return (
+    plan?.parts?.find((one) => one.part === index && one.is_transition === isTransition && one.name === name)
+    ?? null
+  );
 }
 
 function sourceOf({ view }, part) {
@@ -17,10 +20,12 @@ function sourceOf({ view }, part) {
 
 /** One of all names is reached by Tab; the arrows move on from there. */
 function rovingNames(rows) {
-  const mark = (index) => rows.forEach(({ name, element }, other) => {
-    // The other controls of a row follow its name; those of all other rows are left out.
-    for (const control of [name, ...element.querySelectorAll("button, input")]) control.tabIndex = other === index ? 0 : -1;
-  });
+  const mark = (index) =>
+    rows.forEach(({ name, element }, other) => {
+      // The other controls of a row follow its name; those of all other rows are left out.
+      for (const control of [name, ...element.querySelectorAll("button, input")])
+        control.tabIndex = other === index ? 0 : -1;
+    });
   return {
     mark,
     focus(index) {
@@ -53,7 +58,8 @@ function partActions(store, edits, playback, focus) {
     goTo(index) {
       const plan = shownPlan(store.state);
       const stretch = plan?.parts?.find((one) => one.part === index && !one.is_transition);
-      if (plan?.times.length && stretch && stretch.first !== null) playback.setTime(plan.times[stretch.first]);
+      if (plan?.times.length && stretch && stretch.first !== null)
+        playback.setTime(plan.times[stretch.first]);
     },
   };
 }
@@ -61,8 +67,15 @@ function partActions(store, edits, playback, focus) {
 function press(event, index, actions, focus) {
   const keys = event.altKey
     ? { ArrowUp: () => actions.move(index, index - 1), ArrowDown: () => actions.move(index, index + 1) }
-    : { ArrowUp: () => focus(index - 1), ArrowDown: () => focus(index + 1), Home: () => focus(0), End: () => focus(Infinity),
-      Delete: () => actions.remove(index), Backspace: () => actions.remove(index), Enter: () => actions.goTo(index) };
+    : {
+        ArrowUp: () => focus(index - 1),
+        ArrowDown: () => focus(index + 1),
+        Home: () => focus(0),
+        End: () => focus(Infinity),
+        Delete: () => actions.remove(index),
+        Backspace: () => actions.remove(index),
+        Enter: () => actions.goTo(index),
+      };
   if (!keys[event.key]) return;
   event.preventDefault();
   event.stopPropagation();
@@ -71,9 +84,9 @@ function press(event, index, actions, focus) {
 
 /**
  * Builds the grid; `show` gives it the state, `cancel` ends a drag.
- * @param {object} store
- * @param {object} edits
- * @param {Playback} playback
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
+ * @param {import("../preview/playback.js").Playback} playback
  * @param {(index: number) => void} takeOver takes a part's gait over as it is now
  */
 export function partRows(store, edits, playback, takeOver) {
@@ -84,8 +97,10 @@ export function partRows(store, edits, playback, takeOver) {
 
   function grow(index) {
     const row = partRow({
-      times: (times) => actions.times(index, times), move: (way) => actions.move(index, index + way),
-      remove: () => actions.remove(index), takeOver: () => takeOver(index),
+      times: (times) => actions.times(index, times),
+      move: (way) => actions.move(index, index + way),
+      remove: () => actions.remove(index),
+      takeOver: () => takeOver(index),
       runThrough: () => actions.runThrough(index),
     });
     row.name.addEventListener("keydown", (event) => press(event, index, actions, focus));
@@ -99,11 +114,23 @@ export function partRows(store, edits, playback, takeOver) {
     const plan = shownPlan(state);
     while (rows.length < sequence.length) grow(rows.length);
     while (rows.length > sequence.length) rows.pop().element.remove();
-    mark(Math.max(0, rows.findIndex(({ name }) => name.tabIndex === 0)));
-    sequence.forEach((part, index) => showRow(rows[index], {
-      index, count: sequence.length, part, plan, source: sourceOf(state, part),
-      planned: stretchOf(plan, index, part.gait.name, false), move: stretchOf(plan, index, part.gait.name, true),
-    }));
+    mark(
+      Math.max(
+        0,
+        rows.findIndex(({ name }) => name.tabIndex === 0),
+      ),
+    );
+    sequence.forEach((part, index) =>
+      showRow(rows[index], {
+        index,
+        count: sequence.length,
+        part,
+        plan,
+        source: sourceOf(state, part),
+        planned: stretchOf(plan, index, part.gait.name, false),
+        move: stretchOf(plan, index, part.gait.name, true),
+      }),
+    );
   }
 
   return { grid, show, cancel: mountReordering(grid, () => rows, actions.move, actions.goTo).cancel };
@@ -121,16 +148,20 @@ function mountReordering(grid, rows, move, tap) {
   let drag = null;
 
   /** How many rows have their middle above the pointer. */
-  const placeAt = (y) => rows().filter(({ element }) => {
-    const { top, bottom } = element.getBoundingClientRect();
-    return y > (top + bottom) / 2;
-  }).length;
+  const placeAt = (y) =>
+    rows().filter(({ element }) => {
+      const { top, bottom } = element.getBoundingClientRect();
+      return y > (top + bottom) / 2;
+    }).length;
 
   function mark() {
     rows().forEach(({ element }, index) => {
       element.toggleAttribute("data-dragged", Boolean(drag?.on) && index === drag.from);
       element.toggleAttribute("data-before", Boolean(drag?.on) && index === drag.gap);
-      element.toggleAttribute("data-after", Boolean(drag?.on) && index === rows().length - 1 && drag.gap === rows().length);
+      element.toggleAttribute(
+        "data-after",
+        Boolean(drag?.on) && index === rows().length - 1 && drag.gap === rows().length,
+      );
     });
   }
 

@@ -6,17 +6,20 @@ import { h, setText } from "../lib/dom.js";
 /** What a refusal names that different sample times are the reason of. */
 export const SAMPLE_TIMES = "sample_time";
 
-const RESAMPLE = "Gives all parts the sample time that most parts have. Phases are rounded up to whole samples, so no motion "
+const RESAMPLE =
+  "Gives all parts the sample time that most parts have. Phases are rounded up to whole samples, so no motion "
   + "becomes faster. Optimised parts that change must be optimised again. One Undo reverts the whole change.";
-const RESTART = "Each repetition starts and ends at rest, like a part that runs only once. "
+const RESTART =
+  "Each repetition starts and ends at rest, like a part that runs only once. "
   + "One Undo reverts this change.";
 
 /** The parts that have no motion without a pause but one of their own, counted from 0. */
-const restartable = (plan) => (plan?.parts ?? []).filter((part) => part.has_own_motion).map(({ part }) => part);
+const restartable = (plan) =>
+  (plan?.parts ?? []).filter((part) => part.has_own_motion).map(({ part }) => part);
 
 /**
  * @param {{edit: Function, resample: Function}} edits
- * @returns {{element: HTMLElement, show: (state: object, document: object, plan: object|null) => void}}
+ * @returns {{element: HTMLElement, show: (state: Record<string, any>, document: Record<string, any>, plan: Record<string, any>|null) => void}}
  */
 export function sequenceTrouble(edits) {
   let act = null;
@@ -24,7 +27,12 @@ export function sequenceTrouble(edits) {
   const button = h("button", { on: { click: () => act?.() } });
   const price = h("p", { class: "why" });
   const help = h("div", {}, h("div", { class: "buttons" }, button), price);
-  const element = h("div", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true }, sentence, help);
+  const element = h(
+    "div",
+    { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true },
+    sentence,
+    help,
+  );
 
   function offer(text, words, doIt) {
     act = doIt;
@@ -37,7 +45,9 @@ export function sequenceTrouble(edits) {
   function chosen({ formError, formRefusal }, document, plan) {
     if (formError) {
       const isTimes = formRefusal?.sentence === formError && formRefusal.where === SAMPLE_TIMES;
-      return isTimes ? ["Resample", RESAMPLE, formRefusal.resample ?? (() => edits.resample(formRefusal.batch))] : null;
+      return isTimes
+        ? ["Resample", RESAMPLE, formRefusal.resample ?? (() => edits.resample(formRefusal.batch))]
+        : null;
     }
     const parts = restartable(plan).filter((part) => document.sequence[part]);
     if (!parts.length) return null;

@@ -55,7 +55,16 @@ export function foldDrawer() {
 }
 
 function closeButton(name) {
-  return h("button", { class: "plain icon-only", "aria-label": `Close ${name}`, title: "Close", on: { click: () => openDrawer(null) } }, icon("close"));
+  return h(
+    "button",
+    {
+      class: "plain icon-only",
+      "aria-label": `Close ${name}`,
+      title: "Close",
+      on: { click: () => openDrawer(null) },
+    },
+    icon("close"),
+  );
 }
 
 /** Opens the drawer that was open before; where nobody has chosen yet, the gaits in a roomy window. */
@@ -67,10 +76,13 @@ export function mountDrawers(store) {
   const kept = remembered(KEY).name;
   const wanted = kept === undefined ? "gaits" : kept;
   show(NAMES.includes(wanted) && matchMedia(ROOMY).matches ? wanted : null);
-  store.watch(({ jobs }) => [jobs], ({ jobs }) => {
-    const count = jobs.filter(jobIsOn).length;
-    byId("jobs-count").hidden = count === 0;
-    setText(byId("jobs-count"), String(count));
-    setAttribute(byId("rail-jobs"), "aria-description", count ? `${count} running` : null);
-  });
+  store.watch(
+    ({ jobs }) => [jobs],
+    ({ jobs }) => {
+      const count = jobs.filter(jobIsOn).length;
+      byId("jobs-count").hidden = count === 0;
+      setText(byId("jobs-count"), String(count));
+      setAttribute(byId("rail-jobs"), "aria-description", count ? `${count} running` : null);
+    },
+  );
 }

@@ -6,7 +6,8 @@ import { remember, remembered } from "../lib/remembered.js";
 
 const STEP_PX = 16;
 const LEAST_STAGE_PX = 320;
-const HELP = "To change the size, drag this edge or press an arrow key. "
+const HELP =
+  "To change the size, drag this edge or press an arrow key. "
   + "Double click or Enter restores the usual size";
 
 /**
@@ -17,7 +18,10 @@ const HELP = "To change the size, drag this edge or press an arrow key. "
 function mountEdge({ name, variable, least, most, size, grows, axis, edge }) {
   const kept = remembered(`edge.${name}`);
   const root = document.body.style;
-  const apply = () => Object.entries(kept).forEach(([key, value]) => { if (Number.isFinite(value)) root.setProperty(key, `${clamp(value, least, Math.max(least, most()))}px`); });
+  const apply = () =>
+    Object.entries(kept).forEach(([key, value]) => {
+      if (Number.isFinite(value)) root.setProperty(key, `${clamp(value, least, Math.max(least, most()))}px`);
+    });
   const say = () => {
     setAttribute(edge, "aria-valuemin", String(least));
     setAttribute(edge, "aria-valuemax", String(Math.round(Math.max(least, most()))));
@@ -42,7 +46,9 @@ function mountEdge({ name, variable, least, most, size, grows, axis, edge }) {
     edge.setPointerCapture(event.pointerId);
     edge.dataset.held = "";
   });
-  edge.addEventListener("pointermove", (event) => { if (held) setTo(held.from + grows * ((axis === "x" ? event.clientX : event.clientY) - held.at)); });
+  edge.addEventListener("pointermove", (event) => {
+    if (held) setTo(held.from + grows * ((axis === "x" ? event.clientX : event.clientY) - held.at));
+  });
   for (const type of ["pointerup", "pointercancel"]) {
     edge.addEventListener(type, () => {
       if (held) keep();
@@ -60,22 +66,72 @@ function mountEdge({ name, variable, least, most, size, grows, axis, edge }) {
     event.preventDefault();
     keep();
   });
-  new ResizeObserver(() => { apply(); say(); }).observe(document.body);
+  new ResizeObserver(() => {
+    apply();
+    say();
+  }).observe(document.body);
   apply();
 }
 
-const separator = (label, orientation) => h("div", { class: "edge upright-edge", role: "separator", tabindex: "0", "aria-orientation": orientation, "aria-label": label, title: `${label}. ${HELP}`, data: { arrows: "" } });
+const separator = (label, orientation) =>
+  h("div", {
+    class: "edge upright-edge",
+    role: "separator",
+    tabindex: "0",
+    "aria-orientation": orientation,
+    "aria-label": label,
+    title: `${label}. ${HELP}`,
+    data: { arrows: "" },
+  });
 
 /** Builds the edges. */
 export function mountEdges() {
   const [drawers, inspector] = [byId("drawers"), byId("inspector")];
-  const [drawerEdge, inspectorEdge] = [separator("Width of the drawer", "vertical"), separator("Width of the inspector", "vertical")];
-  const handle = h("div", { class: "sheet-handle", role: "separator", tabindex: "0", "aria-orientation": "horizontal", "aria-label": "Height of the inspector", title: `Height of the inspector. ${HELP}`, data: { arrows: "" } });
+  const [drawerEdge, inspectorEdge] = [
+    separator("Width of the drawer", "vertical"),
+    separator("Width of the inspector", "vertical"),
+  ];
+  const handle = h("div", {
+    class: "sheet-handle",
+    role: "separator",
+    tabindex: "0",
+    "aria-orientation": "horizontal",
+    "aria-label": "Height of the inspector",
+    title: `Height of the inspector. ${HELP}`,
+    data: { arrows: "" },
+  });
   drawers.append(drawerEdge);
   inspector.append(inspectorEdge, handle);
   const isWide = () => ["runs", "trials"].includes(document.body.dataset.drawer);
   const rest = (own) => window.innerWidth - LEAST_STAGE_PX - byId("rail-gaits").offsetWidth - own;
-  mountEdge({ name: "drawer", variable: () => (isWide() ? "--drawer-wider" : "--drawer-wide"), least: 232, most: () => Math.min(560, rest(inspector.offsetWidth)), size: () => drawers.offsetWidth, grows: 1, axis: "x", edge: drawerEdge });
-  mountEdge({ name: "inspector", variable: () => "--right-kept", least: 320, most: () => Math.min(560, rest(document.body.dataset.drawer ? drawers.offsetWidth : 0)), size: () => inspector.offsetWidth, grows: -1, axis: "x", edge: inspectorEdge });
-  mountEdge({ name: "sheet", variable: () => "--sheet-kept", least: 120, most: () => window.innerHeight * 0.6, size: () => inspector.offsetHeight, grows: -1, axis: "y", edge: handle });
+  mountEdge({
+    name: "drawer",
+    variable: () => (isWide() ? "--drawer-wider" : "--drawer-wide"),
+    least: 232,
+    most: () => Math.min(560, rest(inspector.offsetWidth)),
+    size: () => drawers.offsetWidth,
+    grows: 1,
+    axis: "x",
+    edge: drawerEdge,
+  });
+  mountEdge({
+    name: "inspector",
+    variable: () => "--right-kept",
+    least: 320,
+    most: () => Math.min(560, rest(document.body.dataset.drawer ? drawers.offsetWidth : 0)),
+    size: () => inspector.offsetWidth,
+    grows: -1,
+    axis: "x",
+    edge: inspectorEdge,
+  });
+  mountEdge({
+    name: "sheet",
+    variable: () => "--sheet-kept",
+    least: 120,
+    most: () => window.innerHeight * 0.6,
+    size: () => inspector.offsetHeight,
+    grows: -1,
+    axis: "y",
+    edge: handle,
+  });
 }

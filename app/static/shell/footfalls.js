@@ -22,7 +22,11 @@ function bar([x, width], foot) {
 export function footfalls(feet) {
   const bars = feet.flatMap((row, foot) => swingsOf(row).map((swing) => bar(swing, foot)));
   const viewBox = `0 0 ${feet[0].length} ${feet.length}`;
-  return svg("svg", { class: "footfalls", viewBox, preserveAspectRatio: "none", "aria-hidden": "true" }, ...bars);
+  return svg(
+    "svg",
+    { class: "footfalls", viewBox, preserveAspectRatio: "none", "aria-hidden": "true" },
+    ...bars,
+  );
 }
 
 /**

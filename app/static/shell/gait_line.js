@@ -12,12 +12,13 @@ const STATES = {
   edited: { mark: "edited", sentence: "Unsaved changes" },
   timed: { mark: "good", sentence: "The studio has computed how long the robot takes for this gait" },
   unknown: {
-    mark: "unknown", sentence: "The studio has not yet computed how long the robot takes for this gait",
+    mark: "unknown",
+    sentence: "The studio has not yet computed how long the robot takes for this gait",
   },
 };
 
 /**
- * @typedef {object} Line
+ * @typedef {Record<string, any>} Line
  * @property {HTMLLIElement} element
  * @property {HTMLButtonElement} button
  * @property {HTMLElement} dot
@@ -28,9 +29,18 @@ const STATES = {
  * @property {string} drawn of the picture that is shown
  */
 
-const ROW = h("li", {}, h("button", { class: "gait" },
-  h("i", { class: "state", "aria-hidden": "true" }), h("span", { class: "name", data: { userText: "" } }),
-  h("span", { class: "picture", "aria-hidden": "true" }), h("span", { class: "tag" })));
+const ROW = h(
+  "li",
+  {},
+  h(
+    "button",
+    { class: "gait" },
+    h("i", { class: "state", "aria-hidden": "true" }),
+    h("span", { class: "name", data: { userText: "" } }),
+    h("span", { class: "picture", "aria-hidden": "true" }),
+    h("span", { class: "tag" }),
+  ),
+);
 
 /** @type {WeakMap<Element, Line>} */
 const lines = new WeakMap();
@@ -96,9 +106,9 @@ function titleOf(gait, state) {
 /**
  * Shows a gait in its line.
  * @param {Line} line
- * @param {object} listed
+ * @param {Record<string, any>} listed
  * @param {string|null} selected
- * @param {object|null} view of the shown gait: newer than the list
+ * @param {Record<string, any>|null} view of the shown gait: newer than the list
  */
 export function showLine(line, listed, selected, view) {
   const { plan_seconds, robot_seconds, speed, turn_rate } = view ?? {};
@@ -123,7 +133,9 @@ export function showLine(line, listed, selected, view) {
 export function mountWholeNames(list) {
   const whole = h("span", { class: "whole-name", "aria-hidden": "true", hidden: true });
   list.after(whole);
-  const hide = () => { whole.hidden = true; };
+  const hide = () => {
+    whole.hidden = true;
+  };
   const show = ({ target }) => {
     const name = target.closest(".gait")?.querySelector(".name");
     if (!name || name.scrollWidth <= name.clientWidth) return hide();

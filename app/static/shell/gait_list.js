@@ -30,7 +30,14 @@ function lastUsed() {
 
 /** What belongs to the gait that was shown before. */
 const NOTHING_SHOWN = {
-  gesture: null, live: null, remedies: null, iterate: null, refused: null, formError: null, shownJob: null, runSummary: null,
+  gesture: null,
+  live: null,
+  remedies: null,
+  iterate: null,
+  refused: null,
+  formError: null,
+  shownJob: null,
+  runSummary: null,
 };
 
 /** Shows a gait: fetches its view and remembers it for the next visit. */
@@ -81,7 +88,10 @@ export function selectAfterHello(store) {
   if (choice) selectGait(store, choice);
 }
 
-const WAYS_OUT = { last: "Go back to the last state that can be shown", original: "Restore the original gait" };
+const WAYS_OUT = {
+  last: "Go back to the last state that can be shown",
+  original: "Restore the original gait",
+};
 
 /** Says why a gait cannot be shown, and offers its way out; one of a person's own can be deleted, and brought back. */
 function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
@@ -98,17 +108,32 @@ function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
     const view = await api.recover(id);
     await selectGait(store, id);
     acceptView(store, view);
-    toast(`“${view.name}” can be shown again. `
-      + "The studio keeps unreadable states in the list Versions "
-      + "and unreadable files in the folder set-aside.");
+    toast(
+      `“${view.name}” can be shown again. `
+        + "The studio keeps unreadable states in the list Versions "
+        + "and unreadable files in the folder set-aside.",
+    );
   });
   openDialog((close) => {
-    const then = (act) => () => { close(null); act(); };
-    return dialogFrame(`“${name}” cannot be shown`, close, then(recover), h("p", { text: problem }),
-      h("div", { class: "buttons" },
+    const then = (act) => () => {
+      close(null);
+      act();
+    };
+    return dialogFrame(
+      `“${name}” cannot be shown`,
+      close,
+      then(recover),
+      h("p", { text: problem }),
+      h(
+        "div",
+        { class: "buttons" },
         h("button", { type: "button", text: "Close", on: { click: () => close(null) } }),
-        wayOut === "original" ? null : h("button", { type: "button", text: "Delete", on: { click: then(remove) } }),
-        wayOut && h("button", { type: "submit", class: "primary", text: WAYS_OUT[wayOut] })));
+        wayOut === "original"
+          ? null
+          : h("button", { type: "button", text: "Delete", on: { click: then(remove) } }),
+        wayOut && h("button", { type: "submit", class: "primary", text: WAYS_OUT[wayOut] }),
+      ),
+    );
   });
 }
 
@@ -232,7 +257,14 @@ export function mountGaits(store) {
     const matching = searched ? gaits.filter((gait) => found(gait, searched)) : gaits;
     const { top, examples } = grouped(matching);
     for (const group of top) addGroup(wanted, group, state);
-    if (examples.length && addHeading(wanted, EXAMPLES, examples.flatMap(([, members]) => members))) {
+    if (
+      examples.length
+      && addHeading(
+        wanted,
+        EXAMPLES,
+        examples.flatMap(([, members]) => members),
+      )
+    ) {
       for (const group of examples) addGroup(wanted, group, state);
     }
     search.show(matching.length, gaits.length);
@@ -267,22 +299,26 @@ export function mountGaits(store) {
   };
 
   const timesOf = (view) => [view?.id, view?.robot_seconds, view?.speed, view?.turn_rate];
-  store.watch(({ gaits, selected, view }) => [gaits, selected, ...timesOf(view)], (state) => {
-    const { gaits, selected, greeted } = state;
-    const kept = new Set(gaits.map(({ id }) => id));
-    for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);
-    const row = parts.get(selected)?.element;
-    const place = row?.offsetTop;
-    reveal(state);
-    draw(state);
-    // A gait that was just made may be shown before the list tells of it: only one that was listed can be gone.
-    if (kept.has(selected)) {
-      const shown = parts.get(selected)?.element;
-      // A name that sorts elsewhere takes its row along.
-      if (shown && (listed !== selected || (shown.offsetTop !== place && !isPointedAt(shown)))) bringIntoSight(shown);
-      listed = selected;
-    } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
-  });
+  store.watch(
+    ({ gaits, selected, view }) => [gaits, selected, ...timesOf(view)],
+    (state) => {
+      const { gaits, selected, greeted } = state;
+      const kept = new Set(gaits.map(({ id }) => id));
+      for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);
+      const row = parts.get(selected)?.element;
+      const place = row?.offsetTop;
+      reveal(state);
+      draw(state);
+      // A gait that was just made may be shown before the list tells of it: only one that was listed can be gone.
+      if (kept.has(selected)) {
+        const shown = parts.get(selected)?.element;
+        // A name that sorts elsewhere takes its row along.
+        if (shown && (listed !== selected || (shown.offsetTop !== place && !isPointedAt(shown))))
+          bringIntoSight(shown);
+        listed = selected;
+      } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
+    },
+  );
 }
 
 /** Whether the pointer is over a row's list: what lies under it must not move away from a click. A closed group's rows have no list. */
@@ -291,7 +327,10 @@ const isPointedAt = (row) => row.parentElement?.matches(":hover") ?? false;
 /** Scrolls to the chosen row, for some frames: rows above it have their true height only once they are drawn. */
 function bringIntoSight(row, frames = SETTLING_FRAMES) {
   row.scrollIntoView({ block: "nearest" });
-  const goOn = () => { if (row.isConnected && row.firstChild.getAttribute("aria-current") && !isPointedAt(row)) bringIntoSight(row, frames - 1); };
+  const goOn = () => {
+    if (row.isConnected && row.firstChild.getAttribute("aria-current") && !isPointedAt(row))
+      bringIntoSight(row, frames - 1);
+  };
   if (frames > 0) requestAnimationFrame(goOn);
 }
 
@@ -308,11 +347,16 @@ function found(gait, search) {
  * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string, clear: () => void}}
  */
 function gaitSearch(changed) {
-  const title = "Type a word from the name, robot, orientation or kind of a gait. "
+  const title =
+    "Type a word from the name, robot, orientation or kind of a gait. "
     + "You can also type a foot order, such as 1324";
   const field = h("input", {
-    type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", title,
-    autocomplete: "off", spellcheck: "false",
+    type: "search",
+    "aria-label": "Find a gait",
+    placeholder: "Find a gait",
+    title,
+    autocomplete: "off",
+    spellcheck: "false",
   });
   const nothing = h("p", { class: "teach", role: "status", hidden: true });
   const element = h("div", { class: "gait-search" }, field, nothing);
@@ -333,8 +377,8 @@ function gaitSearch(changed) {
     search: () => field.value,
     show(listed, count) {
       nothing.hidden = listed > 0 || !field.value;
-      if (!listed) nothing.textContent = `No gait matches “${field.value.trim()}”. `
-        + `Esc shows all ${count} gaits.`;
+      if (!listed)
+        nothing.textContent = `No gait matches “${field.value.trim()}”. ` + `Esc shows all ${count} gaits.`;
     },
   };
 }

@@ -10,9 +10,15 @@ import { attempt, toast } from "../lib/toasts.js";
 import { askNewGait } from "./new_gait.js";
 
 const FORMS = [
-  ["json", "Gait (JSON)"], ["csv", "Trajectory (CSV)"], ["companion", "Trajectory metadata (JSON)"],
-  ["waypoints", "Waypoints (CSV)"], ["npz", "Arrays (NPZ)"], ["phases", "Phase list (JSON)"], ["svg", "Gait diagram (SVG)"],
-  ["png", "Gait diagram (PNG)"], ["html", "3D playback (HTML)"],
+  ["json", "Gait (JSON)"],
+  ["csv", "Trajectory (CSV)"],
+  ["companion", "Trajectory metadata (JSON)"],
+  ["waypoints", "Waypoints (CSV)"],
+  ["npz", "Arrays (NPZ)"],
+  ["phases", "Phase list (JSON)"],
+  ["svg", "Gait diagram (SVG)"],
+  ["png", "Gait diagram (PNG)"],
+  ["html", "3D playback (HTML)"],
 ];
 const KEPT = "This gait comes with the program, so you cannot delete it.";
 
@@ -26,7 +32,8 @@ async function exportFile(store, edits, form) {
 }
 
 /** The selected gait's line, from the shown view if possible, which is newer than the list. */
-const lineOf = ({ selected, gaits, view }) => (view?.id === selected ? view : gaits.find(({ id }) => id === selected) ?? null);
+const lineOf = ({ selected, gaits, view }) =>
+  view?.id === selected ? view : (gaits.find(({ id }) => id === selected) ?? null);
 
 function announceDeleted(sentence, id, show) {
   const restore = attempt(async () => {
@@ -55,12 +62,15 @@ async function remove(store, show, deletedHere) {
 /** Says so where somebody else has deleted the gait that this page showed; the list goes on to another one. */
 function watchDeleted(store, show, deletedHere) {
   let last = null;
-  store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected }) => {
-    const gone = last && !gaits.some(({ id }) => id === last.id) ? last : null;
-    last = gaits.find(({ id }) => id === selected) ?? null;
-    if (!gone || deletedHere.delete(gone.id)) return;
-    announceDeleted(`“${gone.name}” was deleted in another tab.`, gone.id, show);
-  });
+  store.watch(
+    ({ gaits, selected }) => [gaits, selected],
+    ({ gaits, selected }) => {
+      const gone = last && !gaits.some(({ id }) => id === last.id) ? last : null;
+      last = gaits.find(({ id }) => id === selected) ?? null;
+      if (!gone || deletedHere.delete(gone.id)) return;
+      announceDeleted(`“${gone.name}” was deleted in another tab.`, gone.id, show);
+    },
+  );
 }
 
 async function duplicate(store, show, edits) {
@@ -80,17 +90,21 @@ export async function makeGait(store, show, preset = {}) {
 /** The acts on the shown gait. */
 function gaitActs(store, edits, show, deletedHere) {
   const exports = FORMS.map(([form, text]) => ({
-    text, group: "Export as", help: `Download this gait as a file: ${text}`,
+    text,
+    group: "Export as",
+    help: `Download this gait as a file: ${text}`,
     act: attempt(() => exportFile(store, edits, form)),
   }));
   return [
     {
-      text: "Duplicate", help: "Make a copy of this gait under another name",
+      text: "Duplicate",
+      help: "Make a copy of this gait under another name",
       act: attempt(() => duplicate(store, show, edits)),
     },
     ...exports,
     {
-      text: "Delete", help: "Delete this saved gait. To bring it back, choose New › Deleted gaits",
+      text: "Delete",
+      help: "Delete this saved gait. To bring it back, choose New › Deleted gaits",
       act: attempt(() => remove(store, show, deletedHere)),
       refusal: () => (lineOf(store.state)?.kind === "saved" ? null : KEPT),
     },
@@ -99,29 +113,40 @@ function gaitActs(store, edits, show, deletedHere) {
 
 /**
  * Builds the menus.
- * @param {object} store
- * @param {object} edits what was done before is part of a copy and of a file
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits what was done before is part of a copy and of a file
  * @param {(id: string) => Promise<void>} show shows a gait
- * @returns {{addNew: (entry: object) => void, addAct: (entry: object) => void}} another entry of the menu New, and of the
+ * @returns {{addNew: (entry: Record<string, any>) => void, addAct: (entry: Record<string, any>) => void}} another entry of the menu New, and of the
  *   menu Gait, before Delete
  */
 export function mountGaitTools(store, edits, show) {
   const deletedHere = new Set();
   watchDeleted(store, show, deletedHere);
-  const news = actionMenu({ name: "New", help: "Make a new gait, or read a gait from a file", entries: [
-    {
-      text: "New gait…", help: "Make a gait from a robot, a foot order, a step and a phase length",
-      act: attempt(() => makeGait(store, show)),
-    },
-    {
-      text: "Import…",
-      help: "Import gaits, trajectories with their metadata, waypoints or phase lists from files",
-      act: () => importFiles(show),
-    },
-    { text: "Deleted gaits…", help: "Bring back a gait that was deleted", act: attempt(() => bringBack(show)), refusal: noneDeleted },
-  ] });
+  const news = actionMenu({
+    name: "New",
+    help: "Make a new gait, or read a gait from a file",
+    entries: [
+      {
+        text: "New gait…",
+        help: "Make a gait from a robot, a foot order, a step and a phase length",
+        act: attempt(() => makeGait(store, show)),
+      },
+      {
+        text: "Import…",
+        help: "Import gaits, trajectories with their metadata, waypoints or phase lists from files",
+        act: () => importFiles(show),
+      },
+      {
+        text: "Deleted gaits…",
+        help: "Bring back a gait that was deleted",
+        act: attempt(() => bringBack(show)),
+        refusal: noneDeleted,
+      },
+    ],
+  });
   const acts = actionMenu({
-    name: "Gait", help: "Copy, export or delete the shown gait, or search for footfall patterns",
+    name: "Gait",
+    help: "Copy, export or delete the shown gait, or search for footfall patterns",
     entries: gaitActs(store, edits, show, deletedHere),
   });
   byId("gait-menus").append(acts.element, news.element);
@@ -134,8 +159,22 @@ const NONE = "No gait is deleted, so there is no gait to bring back.";
 const noneDeleted = async () => ((await api.deleted()).length ? null : NONE);
 
 function row({ id, name, when }, close) {
-  return h("li", {}, h("span", { class: "deleted-name" }, h("b", { text: name }), h("small", { class: "quiet", text: `deleted ${clockTime(when)}` })),
-    h("button", { type: "button", "aria-label": `Bring back ${name}`, text: "Bring back", on: { click: () => close(id) } }));
+  return h(
+    "li",
+    {},
+    h(
+      "span",
+      { class: "deleted-name" },
+      h("b", { text: name }),
+      h("small", { class: "quiet", text: `deleted ${clockTime(when)}` }),
+    ),
+    h("button", {
+      type: "button",
+      "aria-label": `Bring back ${name}`,
+      text: "Bring back",
+      on: { click: () => close(id) },
+    }),
+  );
 }
 
 /**
@@ -148,10 +187,23 @@ async function bringBack(show) {
     toast(NONE);
     return;
   }
-  const id = await openDialog((close) => dialogFrame("Deleted gaits", close, () => close(null),
-    h("p", { class: "quiet", text: "A gait that you bring back keeps its edits, versions and undo history." }),
-    h("ul", { class: "deleted-gaits", "aria-label": "Deleted gaits" }, ...gaits.map((gait) => row(gait, close))),
-    h("div", { class: "buttons" }, h("button", { type: "submit", text: "Close" }))));
+  const id = await openDialog((close) =>
+    dialogFrame(
+      "Deleted gaits",
+      close,
+      () => close(null),
+      h("p", {
+        class: "quiet",
+        text: "A gait that you bring back keeps its edits, versions and undo history.",
+      }),
+      h(
+        "ul",
+        { class: "deleted-gaits", "aria-label": "Deleted gaits" },
+        ...gaits.map((gait) => row(gait, close)),
+      ),
+      h("div", { class: "buttons" }, h("button", { type: "submit", text: "Close" })),
+    ),
+  );
   if (!id) return;
   await api.restore(id);
   await show(id);
@@ -162,17 +214,28 @@ const KINDS = ".json,.csv,application/json,text/csv";
 
 /** What is sent of the chosen files: each gait's file as it is, a trajectory and its companion as one. */
 async function bodies(files) {
-  const companions = new Map(files.filter(({ name }) => name.endsWith(COMPANION)).map((file) => [file.name.slice(0, -COMPANION.length), file]));
+  const companions = new Map(
+    files
+      .filter(({ name }) => name.endsWith(COMPANION))
+      .map((file) => [file.name.slice(0, -COMPANION.length), file]),
+  );
   const gaits = files.filter(({ name }) => !name.endsWith(COMPANION));
   if (!gaits.length) {
-    throw new Error(`“${files[0].name}” has only the metadata of a trajectory. `
-      + "Also choose the CSV file of the trajectory.");
+    throw new Error(
+      `“${files[0].name}” has only the metadata of a trajectory. `
+        + "Also choose the CSV file of the trajectory.",
+    );
   }
-  return Promise.all(gaits.map(async (file) => {
-    const companion = companions.get(file.name.replace(/\.csv$/i, ""));
-    if (!companion) return { name: file.name, body: file };
-    return { name: file.name, body: JSON.stringify({ csv: await file.text(), companion: await companion.text() }) };
-  }));
+  return Promise.all(
+    gaits.map(async (file) => {
+      const companion = companions.get(file.name.replace(/\.csv$/i, ""));
+      if (!companion) return { name: file.name, body: file };
+      return {
+        name: file.name,
+        body: JSON.stringify({ csv: await file.text(), companion: await companion.text() }),
+      };
+    }),
+  );
 }
 
 /**
@@ -181,16 +244,20 @@ async function bodies(files) {
  */
 function importFiles(show) {
   const input = h("input", { type: "file", accept: KINDS, multiple: true });
-  input.addEventListener("change", attempt(async () => {
-    const chosen = await bodies([...input.files]);
-    const remarks = [];
-    for (const { name, body } of chosen) {
-      const view = await api.importFile(body, name);
-      await show(view.id);
-      if (view.remarks.length) remarks.push([...(chosen.length > 1 ? [`${name}:`] : []), ...view.remarks].join(" "));
-      // Showing the next one takes away what belongs to this one: the sentences of all stand beside the last.
-      if (remarks.length) toast(remarks.join(" "));
-    }
-  }));
+  input.addEventListener(
+    "change",
+    attempt(async () => {
+      const chosen = await bodies([...input.files]);
+      const remarks = [];
+      for (const { name, body } of chosen) {
+        const view = await api.importFile(body, name);
+        await show(view.id);
+        if (view.remarks.length)
+          remarks.push([...(chosen.length > 1 ? [`${name}:`] : []), ...view.remarks].join(" "));
+        // Showing the next one takes away what belongs to this one: the sentences of all stand beside the last.
+        if (remarks.length) toast(remarks.join(" "));
+      }
+    }),
+  );
   input.click();
 }

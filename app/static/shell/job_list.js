@@ -6,8 +6,14 @@ import { clockTime, compact, fixed, seconds } from "../lib/format.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
 
 const TONES = {
-  queued: "quiet", running: "accent", cancelling: "caution", done: "good", infeasible: "caution",
-  failed: "bad", cancelled: "quiet", interrupted: "caution",
+  queued: "quiet",
+  running: "accent",
+  cancelling: "caution",
+  done: "good",
+  infeasible: "caution",
+  failed: "bad",
+  cancelled: "quiet",
+  interrupted: "caution",
 };
 const SHOWN = 12;
 
@@ -15,7 +21,8 @@ export const jobIsOn = (job) => ["queued", "running", "cancelling"].includes(job
 export const jobTone = (job) => TONES[job.state] ?? "quiet";
 
 /** Whether a finished job's answer belongs to an older version of its gait. */
-export const isOlder = (job) => Boolean(job) && ["done", "infeasible", "failed"].includes(job.state) && job.fresh === false;
+export const isOlder = (job) =>
+  Boolean(job) && ["done", "infeasible", "failed"].includes(job.state) && job.fresh === false;
 
 /** The optimisation whose curve and explanation are shown: the one picked, else the newest of this gait. */
 export function jobOf({ jobs, shownJob, selected }) {
@@ -36,7 +43,10 @@ function titleOf(job) {
   if (isAtlas(job)) return `Atlas “${job.atlas}”`;
   return isSearch(job) ? `Fastest gait, ${job.gait_name}` : job.gait_name;
 }
-const spoken = (job) => (isTracking(job) || isSearch(job) || isAtlas(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
+const spoken = (job) =>
+  isTracking(job) || isSearch(job) || isAtlas(job)
+    ? titleOf(job)
+    : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`;
 function titleHelp(job) {
   if (isSearch(job)) return "Open this search and its table of results";
   if (isAtlas(job)) return "Open the list of atlases with their maps. There you can also continue an atlas";
@@ -48,12 +58,17 @@ function titleHelp(job) {
 
 function figures(job) {
   const last = job.progress?.at(-1);
-  if (isTracking(job)) return job.state === "running" ? `tracked ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
-  if (isSimulation(job)) return job.state === "running" ? `simulated ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
+  if (isTracking(job))
+    return job.state === "running" ? `tracked ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
+  if (isSimulation(job))
+    return job.state === "running" ? `simulated ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
   if (isSearch(job) || isAtlas(job)) return job.sentence;
-  if (jobIsOn(job)) return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
-  if (job.state === "done" && job.result && isTiming(job)) return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
-  if (job.state === "done" && job.result) return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
+  if (jobIsOn(job))
+    return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
+  if (job.state === "done" && job.result && isTiming(job))
+    return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
+  if (job.state === "done" && job.result)
+    return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
   return job.sentence;
 }
 
@@ -63,16 +78,26 @@ function item(store, id) {
   const word = h("span", { class: "word" });
   const text = h("p");
   const when = h("span");
-  const cancel = h("button", { text: "Cancel", "aria-label": "Cancel job", on: { click: attempt(() => api.cancelJob(id)) } });
+  const cancel = h("button", {
+    text: "Cancel",
+    "aria-label": "Cancel job",
+    on: { click: attempt(() => api.cancelJob(id)) },
+  });
   title.addEventListener("click", () => pick(store, id));
-  const element = h("li", { class: "job" }, h("div", { class: "head" }, dot, title, word), text,
-    h("div", { class: "foot-line" }, when, cancel));
+  const element = h(
+    "li",
+    { class: "job" },
+    h("div", { class: "head" }, dot, title, word),
+    text,
+    h("div", { class: "foot-line" }, when, cancel),
+  );
   return { element, title, dot, word, text, when, cancel };
 }
 
 async function pick(store, id) {
   const job = store.state.jobs.find((one) => one.id === id);
-  if (isTracking(job)) return store.set({ trialWanted: job.result?.trial ? { trial: job.result.trial } : { video: job.video } });
+  if (isTracking(job))
+    return store.set({ trialWanted: job.result?.trial ? { trial: job.result.trial } : { video: job.video } });
   if (isSearch(job)) return store.set({ fastestWanted: job.id });
   if (isAtlas(job)) return store.set({ atlasWanted: job.atlas });
   const { selectGait } = await import("./gait_list.js");
@@ -121,18 +146,26 @@ export function mountJobs(store) {
   const list = byId("jobs");
   const parts = new Map();
   let before = new Map();
-  store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (state) => {
-    before = announceEnded(store, before, state.jobs);
-    const shown = jobOf(state);
-    const visible = state.jobs.slice(0, SHOWN);
-    const kept = new Set(visible.map(({ id }) => id));
-    for (const [id, part] of parts) if (!kept.has(id)) { part.element.remove(); parts.delete(id); }
-    visible.forEach((job, index) => {
-      if (!parts.has(job.id)) parts.set(job.id, item(store, job.id));
-      const part = parts.get(job.id);
-      show(part, job, job === shown);
-      if (list.children[index] !== part.element) list.insertBefore(part.element, list.children[index] ?? null);
-    });
-    byId("jobs-empty").hidden = visible.length > 0;
-  });
+  store.watch(
+    ({ jobs, shownJob, selected }) => [jobs, shownJob, selected],
+    (state) => {
+      before = announceEnded(store, before, state.jobs);
+      const shown = jobOf(state);
+      const visible = state.jobs.slice(0, SHOWN);
+      const kept = new Set(visible.map(({ id }) => id));
+      for (const [id, part] of parts)
+        if (!kept.has(id)) {
+          part.element.remove();
+          parts.delete(id);
+        }
+      visible.forEach((job, index) => {
+        if (!parts.has(job.id)) parts.set(job.id, item(store, job.id));
+        const part = parts.get(job.id);
+        show(part, job, job === shown);
+        if (list.children[index] !== part.element)
+          list.insertBefore(part.element, list.children[index] ?? null);
+      });
+      byId("jobs-empty").hidden = visible.length > 0;
+    },
+  );
 }

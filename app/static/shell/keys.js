@@ -8,7 +8,8 @@ import { goToPart } from "./part_keys.js";
 import { runIsOn } from "../state/store.js";
 import { stopRobot } from "./topbar.js";
 
-const isTyping = (target) => target.closest?.("input, textarea, [contenteditable]") !== null && target.closest !== undefined;
+const isTyping = (target) =>
+  target.closest?.("input, textarea, [contenteditable]") !== null && target.closest !== undefined;
 
 /** True where Space belongs to the focused control: never on a control that acts on the robot, or a cell that was pointed at. */
 function ownsSpace(target, withShift) {
@@ -17,7 +18,8 @@ function ownsSpace(target, withShift) {
 }
 
 /** True where letters, Delete and Ctrl with a letter mean something else than the timeline. */
-const ownsLetters = (target) => Boolean(target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog], [data-keys]"));
+const ownsLetters = (target) =>
+  Boolean(target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog], [data-keys]"));
 
 function withControl(event, { edits, timeline, actions }) {
   const key = event.key.toLowerCase();
@@ -31,9 +33,16 @@ function withControl(event, { edits, timeline, actions }) {
 
 function onTimeline(event, { store, actions, zoom }) {
   const byKey = {
-    l: actions.loop, k: actions.toggleLock, f: zoom.fit, b: () => store.set({ tool: "paint" }),
-    "+": () => zoom.closer(true), "=": () => zoom.closer(true), "-": () => zoom.closer(false), "−": () => zoom.closer(false),
-    delete: actions.clear, backspace: actions.clear,
+    l: actions.loop,
+    k: actions.toggleLock,
+    f: zoom.fit,
+    b: () => store.set({ tool: "paint" }),
+    "+": () => zoom.closer(true),
+    "=": () => zoom.closer(true),
+    "-": () => zoom.closer(false),
+    "−": () => zoom.closer(false),
+    delete: actions.clear,
+    backspace: actions.clear,
   };
   return ownsLetters(event.target) ? null : (byKey[event.key.toLowerCase()] ?? null);
 }
@@ -53,8 +62,10 @@ function plain(event, page) {
   const { playback, store } = page;
   const far = event.shiftKey ? 10 : 1;
   const byKey = {
-    ArrowLeft: () => playback.step(-far), ArrowRight: () => playback.step(far),
-    Home: () => playback.toStart(), End: () => playback.toEnd(),
+    ArrowLeft: () => playback.step(-far),
+    ArrowRight: () => playback.step(far),
+    Home: () => playback.toStart(),
+    End: () => playback.toEnd(),
   };
   if (event.key === " " && !ownsSpace(event.target, event.shiftKey)) return () => playback.toggle();
   const folds = { "?": showKeys, "[": foldDrawer, "]": foldInspector }[event.key];
@@ -66,7 +77,7 @@ function plain(event, page) {
 
 /**
  * Wires the keyboard.
- * @param {object} page `store`, `edits`, `playback`, the timeline with its `actions` and `zoom`, and `escapes`: tried in
+ * @param {Record<string, any>} page `store`, `edits`, `playback`, the timeline with its `actions` and `zoom`, and `escapes`: tried in
  *   order while no run is on; the first that did something wins
  */
 export function mountKeys(page) {
@@ -75,7 +86,11 @@ export function mountKeys(page) {
     if (runIsOn(store.state.robot)) {
       stopRobot(store);
       event.preventDefault();
-    } else if (!dialogOpen() && !event.target.closest?.("[data-own-escape]") && escapes.some((attempt) => attempt())) {
+    } else if (
+      !dialogOpen()
+      && !event.target.closest?.("[data-own-escape]")
+      && escapes.some((attempt) => attempt())
+    ) {
       event.preventDefault();
     }
   }
@@ -103,11 +118,21 @@ export function mountKeys(page) {
   }
 
   window.addEventListener("keydown", press, true);
-  window.addEventListener("keyup", (event) => {
-    if (event.key === " " && event.target.closest?.("[data-robot]")) event.preventDefault();
-  }, true);
+  window.addEventListener(
+    "keyup",
+    (event) => {
+      if (event.key === " " && event.target.closest?.("[data-robot]")) event.preventDefault();
+    },
+    true,
+  );
   byId("viser").addEventListener("load", () => {
     const inner = byId("viser").contentWindow;
-    inner.addEventListener("keydown", (event) => { if (event.key === "Escape") escape(event); }, true);
+    inner.addEventListener(
+      "keydown",
+      (event) => {
+        if (event.key === "Escape") escape(event);
+      },
+      true,
+    );
   });
 }

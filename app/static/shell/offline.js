@@ -5,10 +5,26 @@ import { byId, setInert, setText } from "../lib/dom.js";
 /** A studio that is back within this time was only out of breath. */
 const PATIENCE_MS = 1000;
 const PARTS = [
-  "#drawers", ".rail", ".inspector-head", "#sections", ".inspector-foot", ".pattern-panel", "#tools", "#timeline", "#parts", "#segments", ".pattern-view",
-  ".gait-pill", ".history", "#operator", "#goal", "#pose", "#file-notice",
+  "#drawers",
+  ".rail",
+  ".inspector-head",
+  "#sections",
+  ".inspector-foot",
+  ".pattern-panel",
+  "#tools",
+  "#timeline",
+  "#parts",
+  "#segments",
+  ".pattern-view",
+  ".gait-pill",
+  ".history",
+  "#operator",
+  "#goal",
+  "#pose",
+  "#file-notice",
 ];
-const SENTENCE = "No connection to the studio. Until the connection is back, "
+const SENTENCE =
+  "No connection to the studio. Until the connection is back, "
   + "you can only watch the preview and press Stop. Stop might not reach the robot.";
 
 function sentence({ pending, left }) {
@@ -26,15 +42,18 @@ export function mountOffline(store) {
     document.body.toggleAttribute("data-offline", isOff);
     for (const part of document.querySelectorAll(PARTS.join())) setInert(part, "offline", isOff);
   };
-  store.watch(({ connected, greeted, pending, left }) => [connected, greeted, pending.length, left.length], (state) => {
-    const isLost = !state.connected && state.greeted;
-    banner.hidden = !isLost;
-    setText(banner, isLost ? sentence(state) : "");
-    if (isLost) timer ??= setTimeout(() => setOff(true), PATIENCE_MS);
-    else {
-      clearTimeout(timer);
-      timer = null;
-      setOff(false);
-    }
-  });
+  store.watch(
+    ({ connected, greeted, pending, left }) => [connected, greeted, pending.length, left.length],
+    (state) => {
+      const isLost = !state.connected && state.greeted;
+      banner.hidden = !isLost;
+      setText(banner, isLost ? sentence(state) : "");
+      if (isLost) timer ??= setTimeout(() => setOff(true), PATIENCE_MS);
+      else {
+        clearTimeout(timer);
+        timer = null;
+        setOff(false);
+      }
+    },
+  );
 }

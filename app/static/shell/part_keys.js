@@ -1,10 +1,24 @@
 /** The key F6: from one part of the page to the next, with Shift to the one before. */
 
 /** The parts in their order; the button of the next act is one of its own. */
-const PARTS = [".topbar", ".rail", "#drawers", ".stage", "#verdict", ".transport", "#chart, #segments", "#sections", ".inspector-foot"];
+const PARTS = [
+  ".topbar",
+  ".rail",
+  "#drawers",
+  ".stage",
+  "#verdict",
+  ".transport",
+  "#chart, #segments",
+  "#sections",
+  ".inspector-foot",
+];
 const STOPS = "a[href], button, input, select, summary, [tabindex]";
 
-const isStop = (element) => element.tabIndex >= 0 && !element.disabled && element.checkVisibility({ visibilityProperty: true }) && !element.closest("[inert]");
+const isStop = (element) =>
+  element.tabIndex >= 0
+  && !element.disabled
+  && element.checkVisibility({ visibilityProperty: true })
+  && !element.closest("[inert]");
 
 /** Of a foot the button of the next act, of any other part what Tab reaches first; undefined where the part is hidden. */
 function firstStop(part) {

@@ -8,29 +8,39 @@ let request = null;
 
 /** Every robot with its title, legs, motors and foot orders; requested once. */
 export function robots() {
-  request ??= api.robots().then((answer) => answer.robots, (error) => {
-    request = null;
-    throw error;
-  });
+  request ??= api.robots().then(
+    (answer) => answer.robots,
+    (error) => {
+      request = null;
+      throw error;
+    },
+  );
   return request;
 }
 
 /** An option a robot. A robot with other legs is marked, since choosing it makes a new gait. */
 export function robotOptions(list, legs = null) {
-  return list.map(({ name, title, legs: own }) => h("option", { value: name, text: legs === null || own === legs ? title : `${title}…` }));
+  return list.map(({ name, title, legs: own }) =>
+    h("option", { value: name, text: legs === null || own === legs ? title : `${title}…` }),
+  );
 }
 
 /**
  * The choice of the gait's robot: one with as many legs is an edit, any other one leads to a new gait.
- * @param {object} edits
- * @param {(robot: object, document: object) => void} makeNew asks for a new gait
+ * @param {Record<string, any>} edits
+ * @param {(robot: Record<string, any>, document: Record<string, any>) => void} makeNew asks for a new gait
  */
 export function robotField(edits, makeNew) {
   const select = h("select", { "aria-label": "Robot" });
-  const title = "The robot that walks this gait. "
+  const title =
+    "The robot that walks this gait. "
     + "If you choose a robot with a different number of legs, a dialog for a new gait opens";
-  const element = h("label", { class: "field robot-field", title },
-    h("span", { class: "name", text: "Robot" }), select);
+  const element = h(
+    "label",
+    { class: "field robot-field", title },
+    h("span", { class: "name", text: "Robot" }),
+    select,
+  );
   let [known, shown, legs] = [[], null, null];
 
   function fill() {
@@ -54,5 +64,11 @@ export function robotField(edits, makeNew) {
     known = await robots();
     fill();
   })();
-  return { element, show: (document) => { shown = document; fill(); } };
+  return {
+    element,
+    show: (document) => {
+      shown = document;
+      fill();
+    },
+  };
 }

@@ -19,10 +19,12 @@ const [LEAST_SCALE, MOST_SCALE] = [0.8, 3];
 const [USUAL_SHARE, LOW_SHARE, LOW_PX] = [0.5, 0.43, 800];
 /** Narrower pages scroll as a whole. */
 const NARROW_PX = 900;
-const HELP = "To change the height, drag this edge or press Up or Down. "
+const HELP =
+  "To change the height, drag this edge or press Up or Down. "
   + "Home and End set the smallest and the largest height. Double click or Enter restores the usual height";
 
-const most = () => Math.max(LEAST_PX, window.innerHeight - byId("stop").closest("header").offsetHeight - LEAST_STAGE_PX);
+const most = () =>
+  Math.max(LEAST_PX, window.innerHeight - byId("stop").closest("header").offsetHeight - LEAST_STAGE_PX);
 
 /** The height that was chosen before in this browser, or null. */
 function recalledHeight() {
@@ -55,7 +57,9 @@ function apply(lower, height) {
   const usual = above + mostUsual();
   const scrolls = height === null ? fixed + natural / scale > usual + BORDER_PX : wanted < LEAST_SCALE;
   lower.toggleAttribute("data-scrolls", scrolls);
-  lower.style.height = scrolls ? `${Math.round(height === null ? usual : clamp(height, LEAST_PX, most()))}px` : "";
+  lower.style.height = scrolls
+    ? `${Math.round(height === null ? usual : clamp(height, LEAST_PX, most()))}px`
+    : "";
   // What lies over the chart, such as the playhead, goes down to its end.
   byId("overlay").style.height = scrolls ? `${byId("chart").scrollHeight}px` : "";
 }
@@ -76,7 +80,9 @@ function mountDragging(edge, now, setTo, keep) {
     edge.setPointerCapture(event.pointerId);
     edge.dataset.held = "";
   });
-  edge.addEventListener("pointermove", (event) => { if (drag) setTo(drag.from + drag.y - event.clientY); });
+  edge.addEventListener("pointermove", (event) => {
+    if (drag) setTo(drag.from + drag.y - event.clientY);
+  });
   const end = () => {
     if (drag) keep();
     drag = null;
@@ -89,8 +95,16 @@ function mountDragging(edge, now, setTo, keep) {
 /** Puts the edge over the lower part. */
 export function mountSplitter() {
   const lower = byId("chart").parentElement;
-  const edge = h("div", { class: "edge lower-edge", role: "separator", tabindex: "0", "aria-orientation": "horizontal", "aria-label": "Height of timeline and plots",
-    "aria-description": HELP, title: `Height of timeline and plots. ${HELP}`, data: { arrows: "" } });
+  const edge = h("div", {
+    class: "edge lower-edge",
+    role: "separator",
+    tabindex: "0",
+    "aria-orientation": "horizontal",
+    "aria-label": "Height of timeline and plots",
+    "aria-description": HELP,
+    title: `Height of timeline and plots. ${HELP}`,
+    data: { arrows: "" },
+  });
   document.querySelector(".lower").prepend(edge);
   let height = recalledHeight();
   const show = () => {
@@ -110,8 +124,15 @@ export function mountSplitter() {
   edge.addEventListener("dblclick", usual);
   edge.addEventListener("keydown", (event) => {
     const far = event.shiftKey ? 4 : 1;
-    const actions = { ArrowUp: () => setTo(lower.offsetHeight + STEP_PX * far), ArrowDown: () => setTo(lower.offsetHeight - STEP_PX * far),
-      PageUp: () => setTo(lower.offsetHeight + STEP_PX * 4), PageDown: () => setTo(lower.offsetHeight - STEP_PX * 4), Home: () => setTo(LEAST_PX), End: () => setTo(most()), Enter: usual };
+    const actions = {
+      ArrowUp: () => setTo(lower.offsetHeight + STEP_PX * far),
+      ArrowDown: () => setTo(lower.offsetHeight - STEP_PX * far),
+      PageUp: () => setTo(lower.offsetHeight + STEP_PX * 4),
+      PageDown: () => setTo(lower.offsetHeight - STEP_PX * 4),
+      Home: () => setTo(LEAST_PX),
+      End: () => setTo(most()),
+      Enter: usual,
+    };
     if (!actions[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
     actions[event.key]();

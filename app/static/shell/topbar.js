@@ -17,8 +17,15 @@ import { toast } from "../lib/toasts.js";
 
 const LINK_TONES = { ready: "good", connecting: "caution", lost: "bad" };
 const ROBOT_TONES = {
-  armed: "accent", moving: "accent", done: "good", pausing: "caution", paused: "caution", stopping: "caution",
-  stopped: "bad", fault: "bad", disarmed: "quiet",
+  armed: "accent",
+  moving: "accent",
+  done: "good",
+  pausing: "caution",
+  paused: "caution",
+  stopping: "caution",
+  stopped: "bad",
+  fault: "bad",
+  disarmed: "quiet",
 };
 
 export const robotTone = (robot) => ROBOT_TONES[robot?.robot] ?? "quiet";
@@ -48,7 +55,9 @@ export async function stopRobot(store) {
 function refusedName(name, { gaits, selected }) {
   if (!name) return "A gait needs a name. Write a name, or press Escape.";
   const taken = gaits.some((gait) => gait.id !== selected && gait.name === name);
-  return taken ? `Another gait is called “${name}”. Write another name, such as “${freeName({ gaits }, name)}”, or press Escape.` : null;
+  return taken
+    ? `Another gait is called “${name}”. Write another name, such as “${freeName({ gaits }, name)}”, or press Escape.`
+    : null;
 }
 
 /** The field with the name; a name that was refused stays, with the sentence under it, until it is repaired or given up. */
@@ -69,32 +78,49 @@ function nameField(store, edits) {
     const current = edits.shown()?.name;
     if (current === undefined) return;
     refusal.setError(name === current ? null : refusedName(name, store.state));
-    if (!refusal.hasError() && name !== current) edits.edit((document) => ({ ...document, name }), `Name to ${name}`);
+    if (!refusal.hasError() && name !== current)
+      edits.edit((document) => ({ ...document, name }), `Name to ${name}`);
     show();
   });
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") input.blur();
-    if (event.key === "Escape") { giveUp(); input.blur(); }
+    if (event.key === "Escape") {
+      giveUp();
+      input.blur();
+    }
   });
   store.watch(({ selected }) => [selected], giveUp);
-  return { input, show: () => { if (document.activeElement !== input) show(); } };
+  return {
+    input,
+    show: () => {
+      if (document.activeElement !== input) show();
+    },
+  };
 }
 
 function mountName(store, edits) {
   const { input, show } = nameField(store, edits);
-  store.watch((state) => [state.view, state.pending, state.refused, state.segmentDrafts, state.connected], (now) => {
-    const { view } = now;
-    const unfit = segmentDraftOf(now).steps.length > 0;
-    show();
-    input.size = Math.max(4, input.value.length);
-    const file = view && `If you rename the gait, its file name stays gaits/${view.id}.json`;
-    setAttribute(input, "title", view ? `${view.name}. ${file}` : null);
-    setText(byId("saved-state"), savedWord(now, unfit));
-    setAttribute(byId("saved-state"), "title", view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null);
-  });
+  store.watch(
+    (state) => [state.view, state.pending, state.refused, state.segmentDrafts, state.connected],
+    (now) => {
+      const { view } = now;
+      const unfit = segmentDraftOf(now).steps.length > 0;
+      show();
+      input.size = Math.max(4, input.value.length);
+      const file = view && `If you rename the gait, its file name stays gaits/${view.id}.json`;
+      setAttribute(input, "title", view ? `${view.name}. ${file}` : null);
+      setText(byId("saved-state"), savedWord(now, unfit));
+      setAttribute(
+        byId("saved-state"),
+        "title",
+        view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null,
+      );
+    },
+  );
 }
 
-const UNFIT = "After your last change, some segments of the segment table do not fit together. "
+const UNFIT =
+  "After your last change, some segments of the segment table do not fit together. "
   + "The gait still uses the old table. Your change exists only in this tab.";
 
 /** How the shown gait is kept, in a few words. */
@@ -108,10 +134,13 @@ function savedWord({ view, pending, refused, connected }, unfit) {
 
 /** Every edit is in the studio's database before it is shown as done; Save writes the file that others can read. */
 function savedHelp(view) {
-  const file = view.saved_at ? `Last saved to the data folder: ${clockTime(view.saved_at)}.`
+  const file = view.saved_at
+    ? `Last saved to the data folder: ${clockTime(view.saved_at)}.`
     : "The gait has no file in the data folder yet.";
-  return view.edited ? "The studio stores every edit at once, even before you press Save. "
-    + `${file} Save writes the gait to its file.` : file;
+  return view.edited
+    ? "The studio stores every edit at once, even before you press Save. "
+        + `${file} Save writes the gait to its file.`
+    : file;
 }
 
 function mountHistory(store, edits) {
@@ -119,48 +148,101 @@ function mountHistory(store, edits) {
   onPress(undo, edits.undo);
   onPress(redo, edits.redo);
   onPress(save, edits.save);
-  store.watch(({ view, refused, segmentDrafts }) => [view, refused, segmentDrafts], (state) => {
-    const { view, refused } = state;
-    const own = ownSteps(view);
-    const draft = segmentDraftOf(state).steps.at(-1)?.label;
-    const label = draft ?? (refused ? "the drawing that the studio did not accept" : own.undo);
-    setText(byId("undo-label"), label ? lowered(label) : "");
-    setAllowed(undo, label ? null : "Nothing to undo.", `Undo: ${label} (Ctrl+Z)`);
-    setAllowed(redo, own.redo ? null : "Nothing to redo.", `Redo: ${own.redo} (Ctrl+Shift+Z)`);
-    if (label) setAttribute(undo, "aria-description", label);
-    if (own.redo) setAttribute(redo, "aria-description", own.redo);
-    setAllowed(save, !view ? "No gait is selected." : view.edited ? null : draft ? UNFIT : "Everything is saved.", "Write this gait to its file in the data folder (Ctrl+S)");
-  });
+  store.watch(
+    ({ view, refused, segmentDrafts }) => [view, refused, segmentDrafts],
+    (state) => {
+      const { view, refused } = state;
+      const own = ownSteps(view);
+      const draft = segmentDraftOf(state).steps.at(-1)?.label;
+      const label = draft ?? (refused ? "the drawing that the studio did not accept" : own.undo);
+      setText(byId("undo-label"), label ? lowered(label) : "");
+      setAllowed(undo, label ? null : "Nothing to undo.", `Undo: ${label} (Ctrl+Z)`);
+      setAllowed(redo, own.redo ? null : "Nothing to redo.", `Redo: ${own.redo} (Ctrl+Shift+Z)`);
+      if (label) setAttribute(undo, "aria-description", label);
+      if (own.redo) setAttribute(redo, "aria-description", own.redo);
+      setAllowed(
+        save,
+        !view ? "No gait is selected." : view.edited ? null : draft ? UNFIT : "Everything is saved.",
+        "Write this gait to its file in the data folder (Ctrl+S)",
+      );
+    },
+  );
 }
 
 /** A dot and a word; the word alone may be left to readers. */
 function showState(element, tone, word, isQuiet) {
-  element.replaceChildren(h("span", { class: "dot", data: { tone } }), h("span", { class: "word", text: word }));
+  element.replaceChildren(
+    h("span", { class: "dot", data: { tone } }),
+    h("span", { class: "word", text: word }),
+  );
   element.classList.toggle("hidden-text", isQuiet);
 }
 
 function mountStates(store) {
   const sentence = h("span", { class: "hidden-text" });
   const [link, robot, operator] = ["link", "robot-status", "operator"].map(byId);
-  store.watch(({ robot: now, connected, selected }) => [now?.link, now?.robot, now?.emulated, now?.device, now?.run?.gait_name, connected, selected], ({ robot: now, connected, selected }) => {
-    const isReady = connected && now?.link === "ready";
-    showState(link, connected ? linkTone(now) : "bad", connected ? (now?.link ?? "unknown") : "no studio", isReady);
-    showState(robot, robotTone(now), `${now?.robot ?? "unknown"}${runIsOn(now) && now.run?.gait_name && now.run.gait !== selected ? `: ${now.run.gait_name}` : ""}`, !isReady);
-    robot.append(sentence);
-    setAttribute(link, "title", now ? `${now.emulated ? "Emulated robot" : "Robot"} at ${now.device}` : null);
-    document.querySelector(".states").toggleAttribute("data-stale", !connected);
-  });
-  store.watch(({ robot: now }) => [now?.sentence, now?.stop_text, now?.lease?.page, now?.lease?.is_gone], ({ robot: now }) => {
-    const words = [now?.sentence, now?.stop_text, holderSentence(now)].filter(Boolean).join(" ");
-    setText(sentence, ` ${words}`);
-    setAttribute(robot, "title", words || null);
-  });
-  store.watch((state) => [state.operator], (state) => {
-    operator.replaceChildren(h("span", { class: "initial", "aria-hidden": "true", text: state.operator ? state.operator.charAt(0).toUpperCase() : "?" }), h("span", { class: "name", text: state.operator || "Your name" }));
-    operator.toggleAttribute("data-named", Boolean(state.operator));
-    setAttribute(operator, "aria-label", state.operator ? `Operator ${state.operator}` : "Your name. Operator not named");
-    operator.title = "The studio saves your name with each approval and each run. Click to change your name.";
-  });
+  store.watch(
+    ({ robot: now, connected, selected }) => [
+      now?.link,
+      now?.robot,
+      now?.emulated,
+      now?.device,
+      now?.run?.gait_name,
+      connected,
+      selected,
+    ],
+    ({ robot: now, connected, selected }) => {
+      const isReady = connected && now?.link === "ready";
+      showState(
+        link,
+        connected ? linkTone(now) : "bad",
+        connected ? (now?.link ?? "unknown") : "no studio",
+        isReady,
+      );
+      showState(
+        robot,
+        robotTone(now),
+        `${now?.robot ?? "unknown"}${runIsOn(now) && now.run?.gait_name && now.run.gait !== selected ? `: ${now.run.gait_name}` : ""}`,
+        !isReady,
+      );
+      robot.append(sentence);
+      setAttribute(
+        link,
+        "title",
+        now ? `${now.emulated ? "Emulated robot" : "Robot"} at ${now.device}` : null,
+      );
+      document.querySelector(".states").toggleAttribute("data-stale", !connected);
+    },
+  );
+  store.watch(
+    ({ robot: now }) => [now?.sentence, now?.stop_text, now?.lease?.page, now?.lease?.is_gone],
+    ({ robot: now }) => {
+      const words = [now?.sentence, now?.stop_text, holderSentence(now)].filter(Boolean).join(" ");
+      setText(sentence, ` ${words}`);
+      setAttribute(robot, "title", words || null);
+    },
+  );
+  store.watch(
+    (state) => [state.operator],
+    (state) => {
+      operator.replaceChildren(
+        h("span", {
+          class: "initial",
+          "aria-hidden": "true",
+          text: state.operator ? state.operator.charAt(0).toUpperCase() : "?",
+        }),
+        h("span", { class: "name", text: state.operator || "Your name" }),
+      );
+      operator.toggleAttribute("data-named", Boolean(state.operator));
+      setAttribute(
+        operator,
+        "aria-label",
+        state.operator ? `Operator ${state.operator}` : "Your name. Operator not named",
+      );
+      operator.title =
+        "The studio saves your name with each approval and each run. Click to change your name.";
+    },
+  );
 }
 
 /** Wires the top bar. */
@@ -172,10 +254,14 @@ export function mountTopbar(store, edits) {
   byId("help").addEventListener("click", showKeys);
   takeOverStop();
   byId("stop").addEventListener("click", () => stopRobot(store));
-  store.watch((state) => [stopLimit(state)], (state) => {
-    const limit = stopLimit(state);
-    const within = limit ? `The robot finishes its current move and stops within ${seconds(limit)} s.`
-      : "The robot finishes its current move and then stops.";
-    byId("stop").title = `Stop the robot (Esc during a run). ${within}`;
-  });
+  store.watch(
+    (state) => [stopLimit(state)],
+    (state) => {
+      const limit = stopLimit(state);
+      const within = limit
+        ? `The robot finishes its current move and stops within ${seconds(limit)} s.`
+        : "The robot finishes its current move and then stops.";
+      byId("stop").title = `Stop the robot (Esc during a run). ${within}`;
+    },
+  );
 }

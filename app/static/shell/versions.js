@@ -9,27 +9,70 @@ import { ticket } from "../lib/latest_only.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
 
 const TEXTS = {
-  saved: "Saved", named: "Named", approved: "Approved", automatic: "While editing",
-  "before restore": "Before a restore", "before delete": "Before deleting",
+  saved: "Saved",
+  named: "Named",
+  approved: "Approved",
+  automatic: "While editing",
+  "before restore": "Before a restore",
+  "before delete": "Before deleting",
 };
 const titleOf = (version) => version.name || TEXTS[version.kind];
 
 /** One version in the list. */
 function option(version, choose) {
-  const detail = [version.name ? TEXTS[version.kind].toLowerCase() : null, version.by ? `by ${version.by}` : null, version.present ? "as now" : null, version.problem ? "cannot be shown" : null].filter(Boolean).join(", ");
-  return h("li", { role: "option", id: `version-${version.number}`, "aria-selected": "false", "aria-label": `Version ${version.number}, ${titleOf(version)}, ${clockTime(version.made)}${detail ? `, ${detail}` : ""}`,
-    on: { click: () => choose(version.number) } },
-    h("span", { class: "version-title" }, h("span", { class: "number quiet", text: String(version.number) }), h("b", { text: titleOf(version) })),
-    h("span", { class: "version-when quiet", text: [clockTime(version.made), detail].filter(Boolean).join(" · ") }));
+  const detail = [
+    version.name ? TEXTS[version.kind].toLowerCase() : null,
+    version.by ? `by ${version.by}` : null,
+    version.present ? "as now" : null,
+    version.problem ? "cannot be shown" : null,
+  ]
+    .filter(Boolean)
+    .join(", ");
+  return h(
+    "li",
+    {
+      role: "option",
+      id: `version-${version.number}`,
+      "aria-selected": "false",
+      "aria-label": `Version ${version.number}, ${titleOf(version)}, ${clockTime(version.made)}${detail ? `, ${detail}` : ""}`,
+      on: { click: () => choose(version.number) },
+    },
+    h(
+      "span",
+      { class: "version-title" },
+      h("span", { class: "number quiet", text: String(version.number) }),
+      h("b", { text: titleOf(version) }),
+    ),
+    h("span", {
+      class: "version-when quiet",
+      text: [clockTime(version.made), detail].filter(Boolean).join(" · "),
+    }),
+  );
 }
 
 function parts(id) {
-  const list = h("ul", { class: "version-list", role: "listbox", tabindex: "0", "aria-label": "Versions", data: { arrows: "" } });
-  const difference = h("div", { class: "version-difference", role: "region", "aria-label": "Difference", tabindex: "0" });
+  const list = h("ul", {
+    class: "version-list",
+    role: "listbox",
+    tabindex: "0",
+    "aria-label": "Versions",
+    data: { arrows: "" },
+  });
+  const difference = h("div", {
+    class: "version-difference",
+    role: "region",
+    "aria-label": "Difference",
+    tabindex: "0",
+  });
   const help = "Choose the state that the selected version is compared with";
   const against = h("select", { "aria-label": "Compared with", title: help });
   const restore = h("button", { type: "button", class: "primary", text: "Restore" });
-  const name = h("input", { "aria-label": "Name of this state", placeholder: "Name for the present state", maxlength: "80", autocomplete: "off" });
+  const name = h("input", {
+    "aria-label": "Name of this state",
+    placeholder: "Name for the present state",
+    maxlength: "80",
+    autocomplete: "off",
+  });
   return { id, list, difference, against, restore, name, heading: h("h4", {}) };
 }
 
@@ -49,15 +92,16 @@ function panel(store, edits, ui) {
     const to = ui.against.value ? Number(ui.against.value) : null;
     const { groups } = await api.difference(ui.id, chosen, to);
     if (isOld()) return;
-    ui.heading.textContent = to === null ? `Changes since version ${chosen}`
-      : `Changes from version ${chosen} to version ${to}`;
+    ui.heading.textContent =
+      to === null ? `Changes since version ${chosen}` : `Changes from version ${chosen} to version ${to}`;
     ui.difference.replaceChildren(ui.heading, ...sentences(groups));
   });
 
   function choose(number) {
     chosen = number;
     const version = versions.find((one) => one.number === number);
-    for (const item of ui.list.children) setAttribute(item, "aria-selected", String(item.id === `version-${number}`));
+    for (const item of ui.list.children)
+      setAttribute(item, "aria-selected", String(item.id === `version-${number}`));
     ui.list.setAttribute("aria-activedescendant", `version-${number}`);
     byId(`version-${number}`)?.scrollIntoView({ block: "nearest" });
     const same = version.present ? "The gait is already the same as this version." : null;
@@ -73,13 +117,18 @@ function panel(store, edits, ui) {
     ({ versions } = found);
     ui.list.replaceChildren(...versions.map((version) => option(version, choose)));
     const kept = ui.against.value;
-    ui.against.replaceChildren(h("option", { value: "", text: "the present state" }),
-      ...versions.map((version) => h("option", { value: version.number, text: `version ${version.number}, ${titleOf(version)}` })));
+    ui.against.replaceChildren(
+      h("option", { value: "", text: "the present state" }),
+      ...versions.map((version) =>
+        h("option", { value: version.number, text: `version ${version.number}, ${titleOf(version)}` }),
+      ),
+    );
     ui.against.value = versions.some(({ number }) => String(number) === kept) ? kept : "";
     if (!versions.length) {
       ui.list.removeAttribute("aria-activedescendant");
       setAllowed(ui.restore, "There is no version yet.");
-      const none = "There is no version yet. "
+      const none =
+        "There is no version yet. "
         + "The studio makes a version when you save the gait, approve it or name its state. "
         + "While you edit, it also makes a version every two minutes.";
       ui.difference.replaceChildren(h("p", { class: "quiet", text: none }));
@@ -128,12 +177,35 @@ export function mountVersions(store, edits) {
     const ui = parts(view.id);
     const behaviour = panel(store, edits, ui);
     openDialog((close) => {
-      const frame = dialogFrame(`Versions of ${view.name}`, close, behaviour.keep,
+      const frame = dialogFrame(
+        `Versions of ${view.name}`,
+        close,
+        behaviour.keep,
         h("p", { class: "quiet", text: "A version is an earlier state of the gait that you can restore." }),
-        h("div", { class: "version-columns" }, ui.list, h("div", { class: "version-side" },
-          h("label", { class: "version-against quiet" }, "Compared with ", ui.against), ui.difference)),
-        h("div", { class: "version-name" }, ui.name, h("button", { type: "submit", text: "Name this state" })),
-        h("div", { class: "buttons" }, h("button", { type: "button", text: "Close", on: { click: () => close(null) } }), ui.restore));
+        h(
+          "div",
+          { class: "version-columns" },
+          ui.list,
+          h(
+            "div",
+            { class: "version-side" },
+            h("label", { class: "version-against quiet" }, "Compared with ", ui.against),
+            ui.difference,
+          ),
+        ),
+        h(
+          "div",
+          { class: "version-name" },
+          ui.name,
+          h("button", { type: "submit", text: "Name this state" }),
+        ),
+        h(
+          "div",
+          { class: "buttons" },
+          h("button", { type: "button", text: "Close", on: { click: () => close(null) } }),
+          ui.restore,
+        ),
+      );
       frame.classList.add("versions");
       open = { element: frame, ...behaviour, id: view.id, close };
       return frame;
@@ -142,11 +214,14 @@ export function mountVersions(store, edits) {
   }
 
   onPress(button, show);
-  store.watch(({ view }) => [view?.id, view?.revision, view?.version, view?.stamp], ({ view }) => {
-    const help = "Compare and restore earlier states of this gait";
-    setAllowed(button, view ? null : "No gait is selected.", help);
-    if (!open?.element.isConnected || !view) return;
-    if (open.id === view.id) open.refresh();
-    else open.close(null);
-  });
+  store.watch(
+    ({ view }) => [view?.id, view?.revision, view?.version, view?.stamp],
+    ({ view }) => {
+      const help = "Compare and restore earlier states of this gait";
+      setAllowed(button, view ? null : "No gait is selected.", help);
+      if (!open?.element.isConnected || !view) return;
+      if (open.id === view.id) open.refresh();
+      else open.close(null);
+    },
+  );
 }

@@ -27,13 +27,20 @@ const fits = (at, size, room) => at >= size / 2 + GAP && at <= room - size / 2 -
 function clear(box, other, { width, height }) {
   const [across, along] = overlap(box, other);
   if (across <= 0 || along <= 0) return false;
-  const [right, below] = [other.x + (box.width + other.width) / 2 + GAP, other.y + (box.height + other.height) / 2 + GAP];
+  const [right, below] = [
+    other.x + (box.width + other.width) / 2 + GAP,
+    other.y + (box.height + other.height) / 2 + GAP,
+  ];
   const ways = [
     ...[right, 2 * other.x - right].filter((x) => fits(x, box.width, width)).map((x) => ({ x, y: box.y })),
     ...[below, 2 * other.y - below].filter((y) => fits(y, box.height, height)).map((y) => ({ x: box.x, y })),
   ];
   const far = (way) => Math.abs(way.x - box.x) + Math.abs(way.y - box.y);
-  if (ways.length) Object.assign(box, ways.reduce((best, way) => (far(way) < far(best) ? way : best)));
+  if (ways.length)
+    Object.assign(
+      box,
+      ways.reduce((best, way) => (far(way) < far(best) ? way : best)),
+    );
   return ways.length > 0;
 }
 
@@ -64,7 +71,8 @@ export function moveApart(boxes, fixed, frame) {
 
 /** Whether a box lies inside the frame and overlaps no fixed box. */
 export const isFree = (box, fixed, { width, height }) =>
-  fits(box.x, box.width, width) && fits(box.y, box.height, height)
+  fits(box.x, box.width, width)
+  && fits(box.y, box.height, height)
   && !fixed.some((other) => Math.min(...overlap(box, other)) > 0);
 
 /** The first of some places at which a box is free. If there is none, the first place, moved. */

@@ -31,7 +31,8 @@ const HANDLE = 26;
 const [BEYOND, BELOW] = [6, 18];
 
 const radians = (degrees) => (degrees * Math.PI) / 180;
-const pathOf = (points) => `${points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("")}Z`;
+const pathOf = (points) =>
+  `${points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("")}Z`;
 /** A number as text, without a trailing “.0”. */
 const short = (value) => fixed(value).replace(/\.0$/, "");
 
@@ -66,11 +67,17 @@ function round({ x, y, radius, front }, turn) {
   const sign = Math.sign(turn);
   const at = (part, aside) => {
     const angle = radians(front + sign * (ARC.start + ARC.span * part));
-    return [x + (radius + ARROW.before + aside) * Math.cos(angle), y + (radius + ARROW.before + aside) * Math.sin(angle)];
+    return [
+      x + (radius + ARROW.before + aside) * Math.cos(angle),
+      y + (radius + ARROW.before + aside) * Math.sin(angle),
+    ];
   };
   const neck = 1 - ARROW.head / (radians(ARC.span) * radius);
   const parts = Array.from({ length: ARC.pieces + 1 }, (_, piece) => (neck * piece) / ARC.pieces);
-  const side = (aside) => [...parts.map((part) => at(part, aside * ARROW.shaft)), at(neck, aside * ARROW.wide)];
+  const side = (aside) => [
+    ...parts.map((part) => at(part, aside * ARROW.shaft)),
+    at(neck, aside * ARROW.wide),
+  ];
   return { corners: [...side(1), at(1, 0), ...side(-1).reverse()], tip: parts.length + 1 };
 }
 
@@ -100,7 +107,7 @@ export class FloorGuides {
 
   /**
    * @param {HTMLElement} layer
-   * @param {object} store
+   * @param {import("../state/store.js").Store} store
    * @param {import("../preview/preview.js").Preview} preview
    */
   constructor(layer, store, preview) {
@@ -114,8 +121,14 @@ export class FloorGuides {
     const document = previewedDocument(state);
     const [plan, goalHidden] = [drawnPlan(state), byId("goal").hidden];
     const key = [
-      this.#layer.hidden, document?.step, document?.direction, document?.orientation, document?.iterations,
-      plan?.hash, greyOf(state), goalHidden,
+      this.#layer.hidden,
+      document?.step,
+      document?.direction,
+      document?.orientation,
+      document?.iterations,
+      plan?.hash,
+      greyOf(state),
+      goalHidden,
     ].join();
     if (key === this.#key) return false;
     this.#key = key;
@@ -146,7 +159,8 @@ export class FloorGuides {
     const [dx, dy] = worldStep(document);
     const length = Math.hypot(dx, dy);
     const text = stepText(document, isGrey);
-    const { corners, tip } = length > LEAST_STEP ? straight(goal, [dx / length, dy / length]) : round(goal, stepTurn(document));
+    const { corners, tip } =
+      length > LEAST_STEP ? straight(goal, [dx / length, dy / length]) : round(goal, stepTurn(document));
     const places = text ? this.#onStage(seen, corners) : null;
     this.#arrow.setAttribute("d", places ? pathOf(places) : "");
     this.#layer.toggleAttribute("data-grey", isGrey);
@@ -159,7 +173,12 @@ export class FloorGuides {
     const [first, { x, y, height }] = [beyond(places[tip], neck, size), this.boxes.at(-1)];
     const away = (height + size.height) / 2 + BEYOND;
     const [below, above, left] = [y + away, y - away, x - size.width / 2];
-    const others = [{ x, y: below }, { x, y: above }, { x: left, y: below }, { x: left, y: above }];
+    const others = [
+      { x, y: below },
+      { x, y: above },
+      { x: left, y: below },
+      { x: left, y: above },
+    ];
     this.#put(seen, this.#words, [first, ...others]);
   }
 
@@ -167,7 +186,11 @@ export class FloorGuides {
     const [[x, y], radius] = [[goal.x / 2, goal.y / 2], goal.radius + Math.hypot(goal.x, goal.y) / 2];
     this.#scale.hidden = false;
     const size = this.#sizeOf(this.#scale);
-    const written = (ends) => ({ x: (ends[0][0] + ends[1][0]) / 2, y: Math.max(ends[0][1], ends[1][1]) + BELOW, ...size });
+    const written = (ends) => ({
+      x: (ends[0][0] + ends[1][0]) / 2,
+      y: Math.max(ends[0][1], ends[1][1]) + BELOW,
+      ...size,
+    });
     const taken = [...seen.standing, ...this.boxes];
     const isClear = (ends) => ends && [boxOf(ends), written(ends)].every((box) => isFree(box, taken, seen));
     const endsAt = (aside) => this.#onStage(seen, barEnds(seen, { x, y, radius }, aside));
@@ -183,7 +206,11 @@ export class FloorGuides {
   /** Puts a text at the first of some places that is free. */
   #put(seen, element, places) {
     const size = this.#sizeOf(element);
-    const box = firstFree(places.map((at) => ({ ...at, ...size })), [...seen.standing, ...this.boxes], seen);
+    const box = firstFree(
+      places.map((at) => ({ ...at, ...size })),
+      [...seen.standing, ...this.boxes],
+      seen,
+    );
     element.style.transform = `translate(${Math.round(box.x - box.width / 2)}px, ${Math.round(box.y - box.height / 2)}px)`;
     this.boxes.push(box);
   }
@@ -193,7 +220,10 @@ export class FloorGuides {
     const layer = byId("goal");
     if (layer.hidden || layer.hasAttribute("data-off")) return [];
     const angle = radians(heading);
-    const onFloor = [[x, y], [x + radius * Math.cos(angle), y + radius * Math.sin(angle)]];
+    const onFloor = [
+      [x, y],
+      [x + radius * Math.cos(angle), y + radius * Math.sin(angle)],
+    ];
     const [place, knob] = onFloor.map((at) => this.#onStage(seen, [at])?.[0]);
     const square = (at) => at && { x: at[0], y: at[1], width: HANDLE, height: HANDLE };
     return [square(place), square(knob)].filter(Boolean);
@@ -201,7 +231,8 @@ export class FloorGuides {
 
   #sizeOf(element) {
     const words = element.textContent;
-    if (!this.#sizes.has(words)) this.#sizes.set(words, { width: element.offsetWidth, height: element.offsetHeight });
+    if (!this.#sizes.has(words))
+      this.#sizes.set(words, { width: element.offsetWidth, height: element.offsetHeight });
     return this.#sizes.get(words);
   }
 }
@@ -226,5 +257,7 @@ function barPath([[ax, ay], [bx, by]]) {
   const length = Math.hypot(bx - ax, by - ay) || 1;
   const [nx, ny] = [(-(by - ay) / length) * 4, ((bx - ax) / length) * 4];
   const line = (x1, y1, x2, y2) => `M${x1.toFixed(1)} ${y1.toFixed(1)}L${x2.toFixed(1)} ${y2.toFixed(1)}`;
-  return line(ax, ay, bx, by) + line(ax - nx, ay - ny, ax + nx, ay + ny) + line(bx - nx, by - ny, bx + nx, by + ny);
+  return (
+    line(ax, ay, bx, by) + line(ax - nx, ay - ny, ax + nx, ay + ny) + line(bx - nx, by - ny, bx + nx, by + ny)
+  );
 }

@@ -15,9 +15,17 @@ function stageSizes() {
     const box = stage.getBoundingClientRect();
     stage.toggleAttribute("data-low", box.height < LEAST_HEIGHT);
     const boxes = STANDING.map((id) => byId(id).getBoundingClientRect()).filter(({ width }) => width > 0);
-    sizes.standing = boxes.map(({ left, top, width, height }) =>
-      ({ x: left - box.left + width / 2, y: top - box.top + height / 2, width, height }));
-    Object.assign(sizes, { width: box.width, height: box.height, left: byId("viser").getBoundingClientRect().left - box.left });
+    sizes.standing = boxes.map(({ left, top, width, height }) => ({
+      x: left - box.left + width / 2,
+      y: top - box.top + height / 2,
+      width,
+      height,
+    }));
+    Object.assign(sizes, {
+      width: box.width,
+      height: box.height,
+      left: byId("viser").getBoundingClientRect().left - box.left,
+    });
     sizes.version += 1;
   };
   const observer = new ResizeObserver(measure);
@@ -29,7 +37,7 @@ function stageSizes() {
  * Draws parts whenever the camera or the stage changes, or their own `isChanged` returns true. A part that is drawn makes
  * all later ones draw too, since they keep clear of it.
  * @param {import("../preview/preview.js").Preview} preview
- * @param {{draw: (seen: object) => void, isChanged: (seen: object) => boolean}[]} parts `seen` has
+ * @param {{draw: (seen: Record<string, any>) => void, isChanged: (seen: Record<string, any>) => boolean}[]} parts `seen` has
  *   `toStage` (from [x, y, z] in m to pixels of the stage, or null), the camera's axes, the stage's size, and `taken`: the
  *   boxes of earlier parts
  */
@@ -42,7 +50,10 @@ export function followScene(preview, parts) {
     requestAnimationFrame(follow);
     const view = sizes.height >= LEAST_HEIGHT ? preview.view() : null;
     layer.toggleAttribute("data-off", view === null);
-    if (!view) { drawn = null; return; }
+    if (!view) {
+      drawn = null;
+      return;
+    }
     const key = `${sizes.version} ${view.key}`;
     const seen = { ...view, ...sizes, taken: [], toStage: (at) => shifted(view.toScreen(at), sizes.left) };
     let isMoved = key !== drawn;

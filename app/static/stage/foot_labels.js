@@ -15,7 +15,10 @@ const LIFTED = 0.001;
 const STEP_PX = 0.5;
 
 /** Boxes of a pose's handle, relative to the body's place on the floor, px: its knob, and the label beside it. */
-const POSE = [{ dx: 0, dy: 0, width: 24, height: 24 }, { dx: 54, dy: 18, width: 88, height: 22 }];
+const POSE = [
+  { dx: 0, dy: 0, width: 24, height: 24 },
+  { dx: 54, dy: 18, width: 88, height: 22 },
+];
 
 const UP = " ↑";
 
@@ -24,7 +27,11 @@ function besideFoot(seen, [x, y, z], [bodyX, bodyY], floor) {
   const away = Math.hypot(x - bodyX, y - bodyY) || 1;
   const height = z + floor * LOW;
   const foot = seen.toStage([x, y, height]);
-  const edge = seen.toStage([x + ((x - bodyX) / away) * OUTWARDS, y + ((y - bodyY) / away) * OUTWARDS, height]);
+  const edge = seen.toStage([
+    x + ((x - bodyX) / away) * OUTWARDS,
+    y + ((y - bodyY) / away) * OUTWARDS,
+    height,
+  ]);
   return foot && edge ? { foot, edge } : null;
 }
 
@@ -69,7 +76,12 @@ export class FootLabels {
     this.#labels = roles.map((role, foot) => {
       const text = h("span");
       const words = isMany || role === String(foot + 1) ? String(foot + 1) : `${foot + 1} ${role}`;
-      const element = h("div", { class: "foot-label", data: { foot: foot + 1 } }, h("i", { class: "foot-dot" }), text);
+      const element = h(
+        "div",
+        { class: "foot-label", data: { foot: foot + 1 } },
+        h("i", { class: "foot-dot" }),
+        text,
+      );
       return { words, text, node: `/robot/leg${foot + 1}_foot`, transform: "", element };
     });
     this.#layer.toggleAttribute("data-many", isMany);
@@ -85,7 +97,8 @@ export class FootLabels {
     const { overlay, time } = this.#preview;
     const sample = overlay ? sampleAt(overlay.times, time) : -1;
     const hasPose = !byId("pose").hidden && !byId("pose").hasAttribute("data-off");
-    let isChanged = this.#isNew || sample !== this.#sample || overlay !== this.#overlay || hasPose !== this.#hasPose;
+    let isChanged =
+      this.#isNew || sample !== this.#sample || overlay !== this.#overlay || hasPose !== this.#hasPose;
     [this.#sample, this.#overlay, this.#hasPose, this.#isNew] = [sample, overlay, hasPose, false];
     this.#labels.forEach(({ node }, foot) => {
       const at = this.#preview.client.position(node) ?? [NaN, NaN, NaN];
@@ -104,15 +117,25 @@ export class FootLabels {
     const shown = [];
     this.#labels.forEach((label, foot) => {
       const at = [...this.#places.subarray(3 * foot, 3 * foot + 3)];
-      const beside = body && this.#overlay && at.every(Number.isFinite) ? besideFoot(seen, at, body, this.#overlay.floor) : null;
+      const beside =
+        body && this.#overlay && at.every(Number.isFinite)
+          ? besideFoot(seen, at, body, this.#overlay.floor)
+          : null;
       label.element.hidden = beside === null;
       if (!beside) return;
       setText(label.text, label.words + (this.#isLifted(foot) ? UP : ""));
       shown.push({ label, box: boxAt(beside, this.#sizeOf(label)) });
     });
-    const pose = this.#hasPose && body && this.#overlay ? seen.toStage([body[0], body[1], this.#overlay.floor]) : null;
-    const held = pose ? POSE.map(({ dx, dy, ...size }) => ({ x: pose[0] + dx, y: pose[1] + dy, ...size })) : [];
-    moveApart(shown.map(({ box }) => box), [...seen.standing, ...seen.taken, ...held], seen);
+    const pose =
+      this.#hasPose && body && this.#overlay ? seen.toStage([body[0], body[1], this.#overlay.floor]) : null;
+    const held = pose
+      ? POSE.map(({ dx, dy, ...size }) => ({ x: pose[0] + dx, y: pose[1] + dy, ...size }))
+      : [];
+    moveApart(
+      shown.map(({ box }) => box),
+      [...seen.standing, ...seen.taken, ...held],
+      seen,
+    );
     for (const { label, box } of shown) put(label, box);
   }
 
@@ -124,7 +147,8 @@ export class FootLabels {
   /** Size of a label. Each text is measured only once, because reading a size forces a layout of the page. */
   #sizeOf({ element, text }) {
     const words = text.textContent;
-    if (!this.#sizes.has(words)) this.#sizes.set(words, { width: element.offsetWidth, height: element.offsetHeight });
+    if (!this.#sizes.has(words))
+      this.#sizes.set(words, { width: element.offsetWidth, height: element.offsetHeight });
     return this.#sizes.get(words);
   }
 }

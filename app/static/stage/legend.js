@@ -6,11 +6,21 @@ import { indexAt } from "../plots/curves.js";
 import { drawnPlan, greyOf } from "../state/worked_plan.js";
 
 /** The usual symbol of a centre of mass in drawings. */
-const centreMark = () => svg("svg", { class: "centre-mark", viewBox: "-6 -6 12 12", "aria-hidden": "true" },
-  svg("circle", { r: 5 }), svg("path", { d: "M0 0V-4A4 4 0 0 1 4 0ZM0 0V4A4 4 0 0 1 -4 0Z" }));
+const centreMark = () =>
+  svg(
+    "svg",
+    { class: "centre-mark", viewBox: "-6 -6 12 12", "aria-hidden": "true" },
+    svg("circle", { r: 5 }),
+    svg("path", { d: "M0 0V-4A4 4 0 0 1 4 0ZM0 0V4A4 4 0 0 1 -4 0Z" }),
+  );
 
-const footEntry = (role, foot) => h("span", { data: { foot: foot + 1 }, title: `Foot ${foot + 1}: ${role}` },
-  h("i", { class: "foot-dot" }), String(foot + 1));
+const footEntry = (role, foot) =>
+  h(
+    "span",
+    { data: { foot: foot + 1 }, title: `Foot ${foot + 1}: ${role}` },
+    h("i", { class: "foot-dot" }),
+    String(foot + 1),
+  );
 
 const feetEntries = (roles) => [h("span", { text: "foot" }), ...roles.map(footEntry)];
 
@@ -29,7 +39,7 @@ function liftedText(plan, roles, time) {
 
 /**
  * Builds the legend.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @param {import("../preview/playback.js").Playback} playback
  * @returns {{show: (layer: string, shown: boolean) => void}} `show` adapts the legend to a layer of the Show menu
  */
@@ -57,14 +67,23 @@ export function mountLegend(store, playback) {
   }
 
   playback.addEventListener("time", render);
-  store.watch((state) => [drawnPlan(state), greyOf(state), state.view?.roles], ({ view }) => {
-    feet.replaceChildren(...feetEntries(view?.roles ?? []));
-    render();
-  });
+  store.watch(
+    (state) => [drawnPlan(state), greyOf(state), state.view?.roles],
+    ({ view }) => {
+      feet.replaceChildren(...feetEntries(view?.roles ?? []));
+      render();
+    },
+  );
   const entries = {
-    polygon: (shown) => { area.hidden = !shown; },
-    com: (shown) => { centre.hidden = !shown; },
-    labels: (shown) => { feet.hidden = shown; },
+    polygon: (shown) => {
+      area.hidden = !shown;
+    },
+    com: (shown) => {
+      centre.hidden = !shown;
+    },
+    labels: (shown) => {
+      feet.hidden = shown;
+    },
   };
   return {
     show(layer, shown) {

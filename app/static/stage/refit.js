@@ -18,15 +18,23 @@ export function fitByItself(preview, fit) {
     isFitted = true;
     fit();
   };
-  preview.addEventListener("opening", () => { isFitted = false; });
+  preview.addEventListener("opening", () => {
+    isFitted = false;
+  });
   preview.addEventListener("ready", first);
   preview.addEventListener("poses", first);
   first();
-  new ResizeObserver(([{ contentRect: { width, height } }]) => {
-    const before = size;
-    size = `${width} ${height}`;
-    clearTimeout(timer);
-    // A collapsed stage has no size to fit to.
-    if (before && width && height) timer = setTimeout(() => preview.refit(), SETTLED_MS);
-  }).observe(byId("viser").parentElement);
+  new ResizeObserver(
+    ([
+      {
+        contentRect: { width, height },
+      },
+    ]) => {
+      const before = size;
+      size = `${width} ${height}`;
+      clearTimeout(timer);
+      // A collapsed stage has no size to fit to.
+      if (before && width && height) timer = setTimeout(() => preview.refit(), SETTLED_MS);
+    },
+  ).observe(byId("viser").parentElement);
 }

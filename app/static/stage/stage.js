@@ -42,8 +42,14 @@ function mountOverScene(store, preview, legend) {
     preview.setView(view, frontOf(shownDocument(store.state)));
   };
   const labels = new FootLabels(byId("foot-labels"), preview);
-  store.watch(({ view }) => [view?.roles], ({ view }) => labels.setRoles(view?.roles ?? []));
-  store.watch((state) => [greyOf(state)], (state) => byId("foot-labels").toggleAttribute("data-grey", greyOf(state) !== null));
+  store.watch(
+    ({ view }) => [view?.roles],
+    ({ view }) => labels.setRoles(view?.roles ?? []),
+  );
+  store.watch(
+    (state) => [greyOf(state)],
+    (state) => byId("foot-labels").toggleAttribute("data-grey", greyOf(state) !== null),
+  );
   mountTools(store, preview, look, legend.show);
   followScene(preview, [new ViewCube(store, look), new FloorGuides(byId("guides"), store, preview), labels]);
   fitByItself(preview, () => look(byId("camera").value));
@@ -88,13 +94,22 @@ function followPlan(store, playback, preview) {
       missed = { id, plan, trouble, isGrey, since: null };
     }
   });
-  store.watch(({ connected }) => [connected], ({ connected }) => { if (connected && missed) offer(missed); });
+  store.watch(
+    ({ connected }) => [connected],
+    ({ connected }) => {
+      if (connected && missed) offer(missed);
+    },
+  );
   followHand(store, preview);
-  store.watch((state) => [state.view?.id, drawnPlan(state)?.hash, shownPlan(state)?.live?.lacks, greyOf(state)], (state) => {
-    const plan = drawnPlan(state);
-    const since = state.live && state.live.plan === shownPlan(state) ? state.live.since : null;
-    if (plan?.times.length) offer({ id: state.view.id, plan, trouble: troubleOf(state), isGrey: greyOf(state) !== null, since });
-  });
+  store.watch(
+    (state) => [state.view?.id, drawnPlan(state)?.hash, shownPlan(state)?.live?.lacks, greyOf(state)],
+    (state) => {
+      const plan = drawnPlan(state);
+      const since = state.live && state.live.plan === shownPlan(state) ? state.live.since : null;
+      if (plan?.times.length)
+        offer({ id: state.view.id, plan, trouble: troubleOf(state), isGrey: greyOf(state) !== null, since });
+    },
+  );
 }
 
 /** Sets the preview busy during an edit, and while the pointer or the focus is where an edit may begin. */
@@ -107,7 +122,10 @@ function followHand(store, preview) {
       else near.delete(`${id} ${kind}`);
       tell();
     };
-    for (const [kind, comes, goes] of [["pointer", "pointerover", "pointerleave"], ["keyboard", "focusin", "focusout"]]) {
+    for (const [kind, comes, goes] of [
+      ["pointer", "pointerover", "pointerleave"],
+      ["keyboard", "focusin", "focusout"],
+    ]) {
       byId(id).addEventListener(comes, note(kind, true));
       byId(id).addEventListener(goes, note(kind, false));
     }
@@ -131,8 +149,10 @@ export async function mountStage(store, edits, playback) {
   mountOverScene(store, preview, legend);
   mountGhosts(store, preview);
   mountJogGhost(store, preview, playback);
-  store.watch(({ tracks, view }) => [tracks, view?.document.robot], ({ tracks, view }) =>
-    preview.setTracks(tracks.filter(({ robot }) => robot === view?.document.robot)));
+  store.watch(
+    ({ tracks, view }) => [tracks, view?.document.robot],
+    ({ tracks, view }) => preview.setTracks(tracks.filter(({ robot }) => robot === view?.document.robot)),
+  );
   playback.addEventListener("time", ({ detail }) => preview.setTime(detail.time, detail.cause === "clock"));
   followPlan(store, playback, preview);
   mountGoal(store, edits, preview);

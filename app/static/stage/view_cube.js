@@ -16,7 +16,12 @@ const FACES = [
   { view: "back", text: "Back", out: [-1, 0, 0] },
   { view: "left", text: "Left", out: [0, 1, 0] },
 ];
-const CORNERS = [[1, 1, 1], [1, -1, 1], [-1, 1, 1], [-1, -1, 1]];
+const CORNERS = [
+  [1, 1, 1],
+  [1, -1, 1],
+  [-1, 1, 1],
+  [-1, -1, 1],
+];
 const UP = [0, 0, 1];
 const MOVES = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
 
@@ -24,12 +29,18 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
 /** Direction in which the robot of a gait faces at the start, degrees. */
-export const frontOf = (document) => (document?.orientation === "FB" ? 45 : 0) + 90 * ((document?.direction ?? 1) - 1);
+export const frontOf = (document) =>
+  (document?.orientation === "FB" ? 45 : 0) + 90 * ((document?.direction ?? 1) - 1);
 
 /** Direction of the text on a face: level; on the top face, the axis nearest to the camera's right. */
 function alongWords(out, right) {
   if (out[2] === 0) return cross(UP, out);
-  const ways = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]];
+  const ways = [
+    [1, 0, 0],
+    [0, 1, 0],
+    [-1, 0, 0],
+    [0, -1, 0],
+  ];
   return ways.reduce((best, way) => (dot(way, right) > dot(best, right) ? way : best));
 }
 
@@ -47,14 +58,19 @@ function placeFace({ out, button }, { right, up, back }) {
 
 /** Makes a group of buttons one stop of the Tab key; arrow keys move the focus inside it. */
 function roving(group, buttons) {
-  const enter = (button) => buttons.forEach((other) => { other.tabIndex = other === button ? 0 : -1; });
+  const enter = (button) =>
+    buttons.forEach((other) => {
+      other.tabIndex = other === button ? 0 : -1;
+    });
   enter(buttons[0]);
   group.addEventListener("focusin", ({ target }) => enter(target));
   group.addEventListener("keydown", (event) => {
     const move = MOVES[event.key];
     if (!move) return;
     event.preventDefault();
-    buttons[(buttons.indexOf(document.activeElement) + move + buttons.length) % buttons.length].focus({ preventScroll: true });
+    buttons[(buttons.indexOf(document.activeElement) + move + buttons.length) % buttons.length].focus({
+      preventScroll: true,
+    });
   });
 }
 
@@ -67,10 +83,14 @@ export class ViewCube {
   #store;
   #front = null;
   #faces;
-  #corner = h("button", { class: "cube-corner", "aria-label": "Perspective view", title: "Look from above at an angle" });
+  #corner = h("button", {
+    class: "cube-corner",
+    "aria-label": "Perspective view",
+    title: "Look from above at an angle",
+  });
 
   /**
-   * @param {object} store
+   * @param {import("../state/store.js").Store} store
    * @param {(view: string) => void} look
    */
   constructor(store, look) {
@@ -96,7 +116,9 @@ export class ViewCube {
     const inRobot = ([x, y, z]) => [cosine * x + sine * y, cosine * y - sine * x, z];
     const axes = { right: inRobot(right), up: inRobot(up), back: inRobot(back) };
     for (const face of this.#faces) placeFace(face, axes);
-    const nearest = CORNERS.reduce((best, corner) => (dot(corner, axes.back) > dot(best, axes.back) ? corner : best));
+    const nearest = CORNERS.reduce((best, corner) =>
+      dot(corner, axes.back) > dot(best, axes.back) ? corner : best,
+    );
     const at = [dot(axes.right, nearest), -dot(axes.up, nearest)].map((value) => MIDDLE + HALF * value);
     this.#corner.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
   }

@@ -20,14 +20,15 @@ const STAYS = [422, CONFLICT, 503, 507];
 const MOST_TRIES = 8;
 const NO_ANSWER = 0;
 const RETRY_MS = 1000;
-const NOT_ANSWERING = "The studio does not answer. "
-  + "Your edits stay on this page and are sent when the studio answers.";
+const NOT_ANSWERING =
+  "The studio does not answer. " + "Your edits stay on this page and are sent when the studio answers.";
 
 /** Sets cells of the timeline; locked cells keep their value. `cells` are [foot, sample], 0-based. */
 export function paintCells(document, cells, swing) {
   const rows = document.timeline.feet.map((row) => [...row]);
   for (const [foot, sample] of cells) {
-    if (rows[foot]?.[sample] !== undefined && document.timeline.locked?.[foot]?.[sample] !== "1") rows[foot][sample] = swing ? "0" : "1";
+    if (rows[foot]?.[sample] !== undefined && document.timeline.locked?.[foot]?.[sample] !== "1")
+      rows[foot][sample] = swing ? "0" : "1";
   }
   return { ...document, timeline: { ...document.timeline, feet: rows.map((row) => row.join("")) } };
 }
@@ -39,7 +40,9 @@ function paintLabel(cells, swing) {
   const samples = cells.map(([, sample]) => sample + 1);
   const [first, last] = [Math.min(...samples), Math.max(...samples)];
   if (feet.length > 1) return `Feet ${feet.join(", ")}: ${cells.length} cells to ${value}`;
-  return first === last ? `Foot ${feet[0]}, sample ${first} to ${value}` : `Foot ${feet[0]}, samples ${first}–${last} to ${value}`;
+  return first === last
+    ? `Foot ${feet[0]}, sample ${first} to ${value}`
+    : `Foot ${feet[0]}, samples ${first}–${last} to ${value}`;
 }
 
 /** Creates the editing functions of the page. */
@@ -92,7 +95,9 @@ export function createEdits(store) {
   }
 
   function keep(batch, sentence) {
-    const pending = store.state.pending.map((edit) => (batch.includes(edit) ? { ...edit, refused: true } : edit));
+    const pending = store.state.pending.map((edit) =>
+      batch.includes(edit) ? { ...edit, refused: true } : edit,
+    );
     store.set({ pending, refused: sentence });
   }
 
@@ -125,13 +130,17 @@ export function createEdits(store) {
   /** Requests that change the gait are sent one at a time, in the order of the actions. */
   function enqueue(act) {
     running += 1;
-    const result = queue.then(act).finally(() => { running -= 1; });
+    const result = queue.then(act).finally(() => {
+      running -= 1;
+    });
     queue = result.catch(() => {});
     return result;
   }
 
   function flush() {
-    sending ??= enqueue(drain).finally(() => { sending = null; });
+    sending ??= enqueue(drain).finally(() => {
+      sending = null;
+    });
     return sending;
   }
 
@@ -193,7 +202,11 @@ export function createEdits(store) {
     const view = store.state.view?.id === gait ? store.state.view : await api.view(gait);
     const { sequence } = batch.reduce((result, { apply }) => apply(result), view.document);
     try {
-      const resampled = await api.resampleSequence(gait, { sequence, label: batch.at(-1).label, revision: view.revision });
+      const resampled = await api.resampleSequence(gait, {
+        sequence,
+        label: batch.at(-1).label,
+        revision: view.revision,
+      });
       acceptView(store, resampled);
       if (isShown(gait)) store.set({ formError: null, formRefusal: null });
       toast(resampled.resampled.join(" "));
@@ -229,7 +242,8 @@ export function createEdits(store) {
     areUnsent,
     settled,
     dropRefused,
-    paint: (cells, swing) => edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),
+    paint: (cells, swing) =>
+      edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),
     redraw: (body) => pass(passRedraw, body),
     convert: (to, revision = null) => pass(passConvert, to, revision),
     resample: (batch) => pass(passResample, batch),

@@ -16,7 +16,9 @@ const textOf = (value, decimals) => (value === null ? "" : String(Number(value.t
 function changing(store, edits, field, limit) {
   let value;
   return {
-    get on() { return value !== undefined; },
+    get on() {
+      return value !== undefined;
+    },
     show(next) {
       if (value === undefined) limit.begin(edits.shown());
       value = next;
@@ -32,7 +34,11 @@ function changing(store, edits, field, limit) {
       const same = before === null || next === null ? before === next : Math.abs(before - next) < 1e-9;
       if (same) return;
       if (field.act) field.act(next);
-      else edits.edit((document) => field.write(document, next), `${field.name} to ${next === null ? field.empty : `${textOf(next, field.decimals)} ${field.unit}`.trim()}`);
+      else
+        edits.edit(
+          (document) => field.write(document, next),
+          `${field.name} to ${next === null ? field.empty : `${textOf(next, field.decimals)} ${field.unit}`.trim()}`,
+        );
     },
     drop() {
       if (value === undefined) return false;
@@ -60,9 +66,12 @@ function judged(input, field) {
   if (field.whole) return wholeNumber(input, field.name, field);
   const text = input.value.trim();
   const range = `${field.min} and ${field.max}${unitOf(field)}`;
-  if (input.validity.badInput || (text === "" && !field.empty)) return { sentence: `${field.name} needs a number between ${range}.` };
+  if (input.validity.badInput || (text === "" && !field.empty))
+    return { sentence: `${field.name} needs a number between ${range}.` };
   const value = text === "" ? null : Number(text);
-  return isOutside(value, field) ? { sentence: `${field.name} is ${value}${unitOf(field)}; it must lie between ${range}.` } : { value };
+  return isOutside(value, field)
+    ? { sentence: `${field.name} is ${value}${unitOf(field)}; it must lie between ${range}.` }
+    : { value };
 }
 
 /**
@@ -87,7 +96,10 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
     return change.show(value);
   });
   input.addEventListener("change", finish);
-  input.addEventListener("blur", () => { finish(); text.show(!refusal.hasError()); });
+  input.addEventListener("blur", () => {
+    finish();
+    text.show(!refusal.hasError());
+  });
   input.addEventListener("keydown", (event) => {
     const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     const act = historyAction(event, edits);
@@ -99,7 +111,11 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
     } else if (way && !event.ctrlKey && !event.altKey) {
       event.preventDefault();
       const { value } = judged(input, field);
-      const next = clamp((value ?? field.fallback ?? field.min) + way * field.step * (event.shiftKey ? 10 : 1), field.min, field.max);
+      const next = clamp(
+        (value ?? field.fallback ?? field.min) + way * field.step * (event.shiftKey ? 10 : 1),
+        field.min,
+        field.max,
+      );
       input.value = textOf(next, field.decimals);
       refusal.setError(null);
       change.show(Number(input.value));
@@ -109,7 +125,9 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
       giveUp();
     }
   });
-  input.addEventListener("keyup", (event) => { if (event.key === "ArrowUp" || event.key === "ArrowDown") text.commit(); });
+  input.addEventListener("keyup", (event) => {
+    if (event.key === "ArrowUp" || event.key === "ArrowDown") text.commit();
+  });
   return giveUp;
 }
 
@@ -144,9 +162,9 @@ function mountDragging(handle, input, change, field, current) {
 
 /**
  * A number.
- * @param {object} store
- * @param {object} edits
- * @param {object} field `label` (short), `name`, `unit`, `min`, `max`, `step`, `decimals`, `help`, `read(document)` and
+ * @param {import("./store.js").Store} store
+ * @param {Record<string, any>} edits
+ * @param {Record<string, any>} field `label` (short), `name`, `unit`, `min`, `max`, `step`, `decimals`, `help`, `read(document)` and
  *   `write(document, value)`, or `act(value)` for what only the server can do; `empty` says what
  *   no number means where none is allowed, `fallback` where stepping begins then, `unsaid` what stands where the number
  *   says nothing of the document; `whole` where only whole numbers will do; `limit` is what the studio calls the number
@@ -154,16 +172,30 @@ function mountDragging(handle, input, change, field, current) {
  */
 export function numberField(store, edits, field) {
   const input = h("input", {
-    type: "number", step: "any", min: field.min, max: field.max, placeholder: field.empty ?? field.unsaid ?? null, data: field.unsaid ? { unsaid: "" } : {}, autocomplete: "off", "aria-label": field.name,
+    type: "number",
+    step: "any",
+    min: field.min,
+    max: field.max,
+    placeholder: field.empty ?? field.unsaid ?? null,
+    data: field.unsaid ? { unsaid: "" } : {},
+    autocomplete: "off",
+    "aria-label": field.name,
     "aria-description": `${field.help}. Allowed: ${field.min} to ${field.max}${unitOf(field)}`,
   });
   const handle = h("span", { class: "name drag", text: field.label });
   const refusal = refusalOf(input);
   const limit = limitHint(store, field);
-  const title = `${field.help}. Allowed: ${field.min} to ${field.max}${unitOf(field)}. `
+  const title =
+    `${field.help}. Allowed: ${field.min} to ${field.max}${unitOf(field)}. `
     + "Drag the name of the field to change the value";
-  const element = h("label", { class: "field", title },
-    handle, h("span", { class: "box", data: { unit: field.unit } }, input), limit.element, refusal.element);
+  const element = h(
+    "label",
+    { class: "field", title },
+    handle,
+    h("span", { class: "box", data: { unit: field.unit } }, input),
+    limit.element,
+    refusal.element,
+  );
   let value = null;
   let written = "";
   const change = changing(store, edits, field, limit);
@@ -171,7 +203,11 @@ export function numberField(store, edits, field) {
     dirty: () => input.validity.badInput || input.value !== written,
     show(always) {
       const shown = textOf(value, field.decimals);
-      if (!always && (refusal.hasError() || (input === document.activeElement && text.dirty() && input.value !== shown))) return;
+      if (
+        !always
+        && (refusal.hasError() || (input === document.activeElement && text.dirty() && input.value !== shown))
+      )
+        return;
       if (input.value !== shown || input.validity.badInput) input.value = shown;
       written = shown;
     },
@@ -181,7 +217,12 @@ export function numberField(store, edits, field) {
     },
   };
   const giveUp = mountTyping(input, change, field, text, { edits, refusal });
-  store.watch(({ selected }) => [selected], () => { if (refusal.hasError()) giveUp(); });
+  store.watch(
+    ({ selected }) => [selected],
+    () => {
+      if (refusal.hasError()) giveUp();
+    },
+  );
   mountDragging(handle, input, change, field, () => value);
   return {
     element,
@@ -196,30 +237,59 @@ export function numberField(store, edits, field) {
 
 /** One of several words. `read` and `write` as for numbers; `options` are [value, text] pairs. */
 export function choiceField(edits, field) {
-  const select = h("select", { "aria-label": field.name }, ...field.options.map(([value, text]) => h("option", { value, text })));
+  const select = h(
+    "select",
+    { "aria-label": field.name },
+    ...field.options.map(([value, text]) => h("option", { value, text })),
+  );
   select.addEventListener("change", () => {
     const value = select.value;
     const text = select.selectedOptions[0].textContent;
     edits.edit((document) => field.write(document, value), `${field.name} to ${text}`);
   });
-  const element = h("label", { class: "field", title: field.help }, h("span", { class: "name", text: field.label }), select);
-  return { element, show: (shown) => { select.value = String(field.read(shown)); } };
+  const element = h(
+    "label",
+    { class: "field", title: field.help },
+    h("span", { class: "name", text: field.label }),
+    select,
+  );
+  return {
+    element,
+    show: (shown) => {
+      select.value = String(field.read(shown));
+    },
+  };
 }
 
 /** A text that is read when it is finished. `commit(text)` gives what was wrong with it, or null; until then it stays. */
 export function textField(store, field) {
   const input = h("input", { autocomplete: "off", inputmode: "numeric", "aria-label": field.name });
   const refusal = refusalOf(input);
-  const element = h("label", { class: "field", title: field.help }, h("span", { class: "name", text: field.label }), h("span", { class: "box" }, input), refusal.element);
+  const element = h(
+    "label",
+    { class: "field", title: field.help },
+    h("span", { class: "name", text: field.label }),
+    h("span", { class: "box" }, input),
+    refusal.element,
+  );
   let last = "";
   const write = () => {
     input.value = last;
     refusal.setError(null);
   };
   input.addEventListener("change", () => refusal.setError(field.commit(input.value)));
-  input.addEventListener("blur", () => { if (!refusal.hasError()) write(); });
-  input.addEventListener("keydown", ({ key }) => { if (key === "Escape") write(); });
-  store.watch(({ selected }) => [selected], () => { if (refusal.hasError()) write(); });
+  input.addEventListener("blur", () => {
+    if (!refusal.hasError()) write();
+  });
+  input.addEventListener("keydown", ({ key }) => {
+    if (key === "Escape") write();
+  });
+  store.watch(
+    ({ selected }) => [selected],
+    () => {
+      if (refusal.hasError()) write();
+    },
+  );
   return {
     element,
     show(shown) {

@@ -38,8 +38,22 @@ function handOver(store, act) {
 /** The question before a take-over, in the panel, with what becomes of the run. */
 function takeOverQuestion(store) {
   const sentence = h("p");
-  const [yes, no] = [h("button", { class: "primary", text: "Take control" }), h("button", { text: "Cancel" })];
-  const element = h("div", { class: "box-note", role: "group", "aria-label": "Take over", data: { tone: "caution", ownEscape: "" }, hidden: true }, sentence, h("div", { class: "buttons" }, yes, no));
+  const [yes, no] = [
+    h("button", { class: "primary", text: "Take control" }),
+    h("button", { text: "Cancel" }),
+  ];
+  const element = h(
+    "div",
+    {
+      class: "box-note",
+      role: "group",
+      "aria-label": "Take over",
+      data: { tone: "caution", ownEscape: "" },
+      hidden: true,
+    },
+    sentence,
+    h("div", { class: "buttons" }, yes, no),
+  );
   let opener = null;
   const close = () => {
     element.hidden = true;
@@ -50,18 +64,30 @@ function takeOverQuestion(store) {
     await handOver(store, "take")();
   });
   onPress(no, close);
-  element.addEventListener("keydown", (event) => { if (event.key === "Escape" && !runIsOn(store.state.robot)) close(); });
+  element.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !runIsOn(store.state.robot)) close();
+  });
   return {
     element,
     open({ currentTarget }) {
       const { robot } = store.state;
-      const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run continues, and you can pause the run." : "";
-      setText(sentence, `If you take control, ${robot.lease.name} can no longer move the robot.${run} Look at the robot before you take control.`);
+      const run =
+        robot.robot === "paused"
+          ? " The run stays paused until you resume it."
+          : runIsOn(robot)
+            ? " The run continues, and you can pause the run."
+            : "";
+      setText(
+        sentence,
+        `If you take control, ${robot.lease.name} can no longer move the robot.${run} Look at the robot before you take control.`,
+      );
       opener = currentTarget;
       element.hidden = false;
       no.focus();
     },
-    show: (isOffered) => { if (!isOffered) setAttribute(element, "hidden", true); },
+    show: (isOffered) => {
+      if (!isOffered) setAttribute(element, "hidden", true);
+    },
   };
 }
 
@@ -73,7 +99,9 @@ function build(store) {
   };
   const question = takeOverQuestion(store);
   return {
-    question, sentence: h("p"), policy: h("p", { class: "why" }),
+    question,
+    sentence: h("p"),
+    policy: h("p", { class: "why" }),
     ask: button("Ask for control", handOver(store, "ask")),
     take: button("Take over", question.open),
     give: button("Give control", handOver(store, "give")),
@@ -85,7 +113,8 @@ function build(store) {
 function words(lease, robot) {
   if (!isTaken(lease)) return FREE;
   if (isMine(lease) && lease.asker) return `You are in control. ${lease.asker.name} asks for control.`;
-  if (lease.asker?.page === pageId()) return `${holderSentence(robot)} You have asked for control. Wait for the answer.`;
+  if (lease.asker?.page === pageId())
+    return `${holderSentence(robot)} You have asked for control. Wait for the answer.`;
   return holderSentence(robot);
 }
 
@@ -105,30 +134,46 @@ function show(parts, robot) {
 /** Notifies the holder of a request, and the asker of the answer, in any part of the page. */
 function tell(store) {
   let before = store.state.robot?.lease ?? null;
-  store.watch(({ robot }) => [robot?.lease?.page, robot?.lease?.asker?.page], ({ robot }) => {
-    const now = robot?.lease ?? null;
-    const isRequested = isMine(now) && now.asker && now.asker.page !== before?.asker?.page;
-    if (isRequested) toast(`${now.asker.name} asks for control of the robot. Answer in the Run step.`, { of: "studio" });
-    if (isMine(now) && isTaken(before) && !isMine(before)) {
-      toast("You are now in control of the robot.", { of: "studio" });
-    }
-    if (isMine(before) && isTaken(now) && !isMine(now)) {
-      toast(`${now.name} is now in control of the robot.`, { of: "studio" });
-    }
-    before = now;
-  });
+  store.watch(
+    ({ robot }) => [robot?.lease?.page, robot?.lease?.asker?.page],
+    ({ robot }) => {
+      const now = robot?.lease ?? null;
+      const isRequested = isMine(now) && now.asker && now.asker.page !== before?.asker?.page;
+      if (isRequested)
+        toast(`${now.asker.name} asks for control of the robot. Answer in the Run step.`, { of: "studio" });
+      if (isMine(now) && isTaken(before) && !isMine(before)) {
+        toast("You are now in control of the robot.", { of: "studio" });
+      }
+      if (isMine(before) && isTaken(now) && !isMine(now)) {
+        toast(`${now.name} is now in control of the robot.`, { of: "studio" });
+      }
+      before = now;
+    },
+  );
 }
 
 /** Builds the part of the step Run that shows who is in control. While a run is on it is there for whoever has to act on it. */
 export function leasePart(store) {
   const parts = build(store);
-  store.watch(({ robot }) => [robot?.lease, robot?.robot, robot?.run?.phase], ({ robot }) => show(parts, robot));
+  store.watch(
+    ({ robot }) => [robot?.lease, robot?.robot, robot?.run?.phase],
+    ({ robot }) => show(parts, robot),
+  );
   tell(store);
-  const element = h("div", { class: "lease", role: "group", "aria-label": "Who is in control" }, parts.sentence,
-    h("div", { class: "buttons" }, parts.ask, parts.take, parts.give, parts.keep, parts.release), parts.question.element, parts.policy);
-  store.watch(({ robot }) => [robot?.lease], ({ robot }) => {
-    const lease = robot?.lease;
-    element.toggleAttribute("data-to-decide", isTaken(lease) && (!isMine(lease) || Boolean(lease.asker)));
-  });
+  const element = h(
+    "div",
+    { class: "lease", role: "group", "aria-label": "Who is in control" },
+    parts.sentence,
+    h("div", { class: "buttons" }, parts.ask, parts.take, parts.give, parts.keep, parts.release),
+    parts.question.element,
+    parts.policy,
+  );
+  store.watch(
+    ({ robot }) => [robot?.lease],
+    ({ robot }) => {
+      const lease = robot?.lease;
+      element.toggleAttribute("data-to-decide", isTaken(lease) && (!isMine(lease) || Boolean(lease.asker)));
+    },
+  );
   return element;
 }

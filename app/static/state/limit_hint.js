@@ -7,8 +7,8 @@ import { isDrawing } from "./live_plan.js";
 
 /**
  * The hint of a field; empty where the field has no `limit`.
- * @param {object} store
- * @param {object} field of `numberField`
+ * @param {import("./store.js").Store} store
+ * @param {Record<string, any>} field of `numberField`
  */
 export function limitHint(store, field) {
   const element = h("span", { class: "field-limit", role: "status", hidden: true });
@@ -21,7 +21,9 @@ export function limitHint(store, field) {
       const mine = new AbortController();
       asked?.abort();
       asked = mine;
-      const value = await api.limit(store.state.selected, { document, which: field.limit }, mine.signal).catch(() => null);
+      const value = await api
+        .limit(store.state.selected, { document, which: field.limit }, mine.signal)
+        .catch(() => null);
       if (asked !== mine || value === null) return;
       element.textContent = `Possible up to ${fixed(field.fromSI(value))} ${field.unit}`;
       element.hidden = false;

@@ -15,18 +15,38 @@ const BROKEN_OFF = "The search for remedies was interrupted. Change the drawing 
 const NOTHING = { list: [], searching: false, trying: false, complete: true };
 
 /** Whether the page shows an edit that the server's view does not have yet. */
-const editInProgress = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
+const editInProgress = ({ view, pending, gesture }) =>
+  Boolean(view) && (gesture !== null || pending.length > 0);
 
 /** Replaces the plan of a document that has none. */
 function refusedPlan(sentence) {
   return {
-    hash: null, source: "draft", note: sentence, refusal: { sentence, where: null }, times: [], contact: [], body: [], feet: [],
-    margin: [], heading: [], balance: null, robot_margin: 0, strokes_mm: null, foot_speeds_mm_s: null, motor_speeds_mm_s: null, duration: 0, live: null, seconds: null,
+    hash: null,
+    source: "draft",
+    note: sentence,
+    refusal: { sentence, where: null },
+    times: [],
+    contact: [],
+    body: [],
+    feet: [],
+    margin: [],
+    heading: [],
+    balance: null,
+    robot_margin: 0,
+    strokes_mm: null,
+    foot_speeds_mm_s: null,
+    motor_speeds_mm_s: null,
+    duration: 0,
+    live: null,
+    seconds: null,
   };
 }
 
 /** Resolves in a task of its own, so that reading a large answer and drawing it do not hold up a frame together. */
-const nextTask = () => new Promise((resume) => { setTimeout(resume); });
+const nextTask = () =>
+  new Promise((resume) => {
+    setTimeout(resume);
+  });
 
 /** Notes how long an edit took until what it leads to was drawn (see the browser's performance timeline). */
 export async function measured(name, since) {
@@ -49,17 +69,20 @@ function mountFollowing(store) {
     measured("edit to plots", since);
   });
 
-  store.watch(({ view, pending, gesture }) => [view, pending, gesture], (state) => {
-    if (!editInProgress(state)) {
-      requested = null;
-      if (state.live) store.set({ live: null });
-      return;
-    }
-    const text = shownText(state);
-    if (text === requested) return;
-    requested = text;
-    offer({ id: state.view.id, document: shownDocument(state), since: performance.now() });
-  });
+  store.watch(
+    ({ view, pending, gesture }) => [view, pending, gesture],
+    (state) => {
+      if (!editInProgress(state)) {
+        requested = null;
+        if (state.live) store.set({ live: null });
+        return;
+      }
+      const text = shownText(state);
+      if (text === requested) return;
+      requested = text;
+      offer({ id: state.view.id, document: shownDocument(state), since: performance.now() });
+    },
+  );
 }
 
 /** Whether a drawing makes no problem at all, such as one that ends in the air. */
@@ -69,7 +92,12 @@ export const isRefusedDrawing = (state) => {
 };
 
 /** Whether a motion follows from the drawing alone. */
-export const isDrawing = (document) => Boolean(document) && !document.segment_table && !document.recorded && !document.sequence?.length && !document.poses;
+export const isDrawing = (document) =>
+  Boolean(document)
+  && !document.segment_table
+  && !document.recorded
+  && !document.sequence?.length
+  && !document.poses;
 
 /** The first thing that physics says against the shown gait; null where it walks, or physics was not asked. */
 export function fallOf(state) {
@@ -110,25 +138,40 @@ function mountRemedies(store) {
     };
     try {
       const document = shownDocument(store.state);
-      await api.remedies(view.id, { document, tips: Boolean(fallOf(store.state)) }, mine.signal, ({ remedies: list, ...rest }) => told({ ...rest, list }));
+      await api.remedies(
+        view.id,
+        { document, tips: Boolean(fallOf(store.state)) },
+        mine.signal,
+        ({ remedies: list, ...rest }) => told({ ...rest, list }),
+      );
       const { remedies } = store.state;
-      if (search === mine && (!remedies || remedies.searching || remedies.trying)) told({ ...NOTHING, ...remedies, searching: false, trying: false, sentence: BROKEN_OFF });
+      if (search === mine && (!remedies || remedies.searching || remedies.trying))
+        told({ ...NOTHING, ...remedies, searching: false, trying: false, sentence: BROKEN_OFF });
     } catch (error) {
       told({ ...NOTHING, sentence: error.message });
     }
   }
 
-  store.watch((state) => [shownText(state)], () => { since = performance.now(); });
-  store.watch((state) => [state.view, state.pending, state.gesture, ownPlan(state), fallOf(state)], (state) => {
-    const text = wanted(state);
-    // A search that has begun goes on while the drawing is the same; one that waits for a finger to rest may begin sooner.
-    if (text !== null && text === asked.text && (search || state.gesture === asked.gesture)) return;
-    asked = { text, gesture: state.gesture };
-    end();
-    if (state.remedies && state.remedies.text !== text) store.set({ remedies: null });
-    // While a finger is down the next edit is near, and a search would be in its way.
-    if (text !== null && state.remedies?.text !== text) timer = setTimeout(() => ask(text), state.gesture ? HELD_MS : IDLE_MS);
-  });
+  store.watch(
+    (state) => [shownText(state)],
+    () => {
+      since = performance.now();
+    },
+  );
+  store.watch(
+    (state) => [state.view, state.pending, state.gesture, ownPlan(state), fallOf(state)],
+    (state) => {
+      const text = wanted(state);
+      // A search that has begun goes on while the drawing is the same; one that waits for a finger to rest may begin sooner.
+      if (text !== null && text === asked.text && (search || state.gesture === asked.gesture)) return;
+      asked = { text, gesture: state.gesture };
+      end();
+      if (state.remedies && state.remedies.text !== text) store.set({ remedies: null });
+      // While a finger is down the next edit is near, and a search would be in its way.
+      if (text !== null && state.remedies?.text !== text)
+        timer = setTimeout(() => ask(text), state.gesture ? HELD_MS : IDLE_MS);
+    },
+  );
 }
 
 /** Keeps the live plan and the remedies of the store current. */

@@ -32,7 +32,10 @@ export async function needOperator(store, why) {
 }
 
 /** Asks for another name. */
-export async function changeOperator(store, why = "The studio saves your name with each approval and each run.") {
+export async function changeOperator(
+  store,
+  why = "The studio saves your name with each approval and each run.",
+) {
   const name = await askName("Who is working here?", why, store.state.operator);
   if (!name) return null;
   remember(name);

@@ -9,7 +9,8 @@ import { clamp } from "../lib/clamp.js";
 export function robotTime(robot, view) {
   const run = robot?.run;
   const plan = view?.plan;
-  if (!run || !plan?.times?.length || run.gait !== view.id || run.waypoints_hash !== plan.waypoints_hash) return null;
+  if (!run || !plan?.times?.length || run.gait !== view.id || run.waypoints_hash !== plan.waypoints_hash)
+    return null;
   if (run.phase === "ended" && !["done", "stopped", "fault"].includes(robot.robot)) return null;
   if (typeof run.plan_time === "number") return run.plan_time;
   const times = plan.waypoint_times ?? [];

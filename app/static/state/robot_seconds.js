@@ -6,7 +6,11 @@ import { hasNoMotion } from "./store.js";
 /** The place in `to` of a value that lies in `from`: straight between two waypoints. */
 function between(value, from, to) {
   if (value >= from.at(-1)) return to.at(-1);
-  const after = clamp(from.findIndex((known) => known >= value), 1, from.length - 1);
+  const after = clamp(
+    from.findIndex((known) => known >= value),
+    1,
+    from.length - 1,
+  );
   const share = (value - from[after - 1]) / (from[after] - from[after - 1] || 1);
   return to[after - 1] + share * (to[after] - to[after - 1]);
 }
@@ -15,7 +19,8 @@ function between(value, from, to) {
 export const hasRobotTimes = (plan) => plan?.poses === null && plan.waypoint_seconds?.length > 1;
 
 /** The moment of the plan at which the robot has been on its way for so long, s. */
-export const plannedAt = ({ waypoint_times: planned, waypoint_seconds: takes }, seconds) => between(seconds, takes, planned);
+export const plannedAt = ({ waypoint_times: planned, waypoint_seconds: takes }, seconds) =>
+  between(seconds, takes, planned);
 
 /** How long the robot has been on its way at a moment of the plan, s; null where that is not known. */
 export function robotSecondsAt(plan, time) {

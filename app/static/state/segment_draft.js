@@ -16,10 +16,15 @@ export const segmentDraftOf = ({ segmentDrafts, view }) => segmentDrafts[view?.i
 const applied = (sheet, steps) => steps.reduce((now, { change }) => change(now), sheet);
 
 /** The sheets after each of the steps, on top of a document. */
-export const segmentSheetsOf = (document, steps) => steps.map((_, index) => applied(segmentSheetOf(document), steps.slice(0, index + 1)));
+export const segmentSheetsOf = (document, steps) =>
+  steps.map((_, index) => applied(segmentSheetOf(document), steps.slice(0, index + 1)));
 
 /** The cells, `[row, foot]`, that steps have set and a repair leaves alone, where later steps have moved them. */
-export const protectedCells = (steps) => steps.reduce((cells, { kept = [], moved }) => [...(moved ? cells.map(moved).filter(Boolean) : cells), ...kept], []);
+export const protectedCells = (steps) =>
+  steps.reduce(
+    (cells, { kept = [], moved }) => [...(moved ? cells.map(moved).filter(Boolean) : cells), ...kept],
+    [],
+  );
 
 let last = { parts: [], sheet: null };
 
@@ -53,7 +58,7 @@ export const dropSegmentDraft = (store) => keep(store, []);
 
 /**
  * Makes a change: one edit of the gait where everything fits then, else one more step of the draft.
- * @param {{change: (sheet: object) => object, label: string, kept?: number[][], moved?: (cell: number[]) => number[]|null}} step `kept`
+ * @param {{change: (sheet: Record<string, any>) => Record<string, any>, label: string, kept?: number[][], moved?: (cell: number[]) => number[]|null}} step `kept`
  *   are the cells, `[row, foot]`, that a repair leaves alone; `moved` maps a cell to its new place, or null if it is gone
  */
 export function commit(store, edits, step) {
@@ -61,6 +66,9 @@ export function commit(store, edits, step) {
   const sheet = applied(segmentSheetOf(shownDocument(store.state)), steps);
   if (errorsOf(sheet).some(({ stops }) => stops)) return keep(store, steps);
   keep(store, []);
-  const apply = (document) => (document.segment_table ? { ...document, segment_table: tableOf(applied(segmentSheetOf(document), steps)) } : document);
+  const apply = (document) =>
+    document.segment_table
+      ? { ...document, segment_table: tableOf(applied(segmentSheetOf(document), steps)) }
+      : document;
   return edits.edit(apply, step.label, { drawing: true });
 }

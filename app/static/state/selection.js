@@ -19,7 +19,7 @@ export const selectedRegion = (state) => {
 
 /**
  * Choosing with a fixed corner: the anchor stays while the other corner moves.
- * @param {object} store
+ * @param {import("./store.js").Store} store
  */
 export function createSelecting(store) {
   let corners = null;
@@ -29,7 +29,8 @@ export function createSelecting(store) {
     corners = { anchor, head, selection: spanning(anchor, head) };
     set(corners.selection);
   };
-  const anchorFor = (cell) => (corners && corners.selection === store.state.selection ? corners.anchor : cell);
+  const anchorFor = (cell) =>
+    corners && corners.selection === store.state.selection ? corners.anchor : cell;
 
   return {
     /** From the anchor to a cell; `from` becomes the anchor where there is none. */
@@ -81,11 +82,14 @@ export function mountSelection(store, marks, rows) {
     marked = now;
   }
 
-  store.watch((state) => [state.selection, state.view, state.pending, axisKey(state)], (state) => {
-    const region = selectedRegion(state);
-    mark(region);
-    placeBox(box, state, region);
-  });
+  store.watch(
+    (state) => [state.selection, state.view, state.pending, axisKey(state)],
+    (state) => {
+      const region = selectedRegion(state);
+      mark(region);
+      placeBox(box, state, region);
+    },
+  );
 }
 
 /** Whether a cell is selected. */

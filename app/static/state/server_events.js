@@ -16,29 +16,61 @@ function receive(store, message, onHello) {
   switch (message.type) {
     case "hello":
       store.set({
-        connected: true, greeted: true, version: message.version, gaits: message.gaits, robot: message.robot, storage: message.storage,
+        connected: true,
+        greeted: true,
+        version: message.version,
+        gaits: message.gaits,
+        robot: message.robot,
+        storage: message.storage,
         jobs: message.jobs.reduce((jobs, job) => withJob(jobs, job), []),
       });
       onHello();
       break;
-    case "gaits": store.set({ gaits: message.gaits }); break;
+    case "gaits":
+      store.set({ gaits: message.gaits });
+      break;
     case "gait":
       acceptView(store, message.view);
       acceptLine(store, message.view);
       break;
-    case "steps": acceptSteps(store, message); break;
-    case "sources": acceptSources(store, message); break;
-    case "job": store.set({ jobs: withJob(store.state.jobs, message.job) }); break;
-    case "storage": store.set({ storage: message.storage }); break;
-    case "search": store.set({ poseSearch: message.search }); break;
-    case "pattern": store.set({ pattern: message }); break;
-    case "setups": store.set({ setups: message.setups }); break;
-    case "cameras": store.set({ cameras: message.cameras }); break;
-    case "video": store.set({ videoChanged: message.video }); break;
-    case "trials": store.set({ trialMade: { id: message.trial } }); break;
-    case "trial": store.set({ trialChanges: { ...store.state.trialChanges, [message.trial.id]: message.trial } }); break;
-    case "robot": acceptRobot(store, message.robot); break;
-    default: break;
+    case "steps":
+      acceptSteps(store, message);
+      break;
+    case "sources":
+      acceptSources(store, message);
+      break;
+    case "job":
+      store.set({ jobs: withJob(store.state.jobs, message.job) });
+      break;
+    case "storage":
+      store.set({ storage: message.storage });
+      break;
+    case "search":
+      store.set({ poseSearch: message.search });
+      break;
+    case "pattern":
+      store.set({ pattern: message });
+      break;
+    case "setups":
+      store.set({ setups: message.setups });
+      break;
+    case "cameras":
+      store.set({ cameras: message.cameras });
+      break;
+    case "video":
+      store.set({ videoChanged: message.video });
+      break;
+    case "trials":
+      store.set({ trialMade: { id: message.trial } });
+      break;
+    case "trial":
+      store.set({ trialChanges: { ...store.state.trialChanges, [message.trial.id]: message.trial } });
+      break;
+    case "robot":
+      acceptRobot(store, message.robot);
+      break;
+    default:
+      break;
   }
 }
 
@@ -63,7 +95,9 @@ export function listen(store, onHello) {
 
   function follow({ socket, early }) {
     closeSocket = () => socket.close();
-    send = (text) => { if (socket.readyState === WebSocket.OPEN) socket.send(text); };
+    send = (text) => {
+      if (socket.readyState === WebSocket.OPEN) socket.send(text);
+    };
     socket.addEventListener("message", ({ data }) => take(data));
     if (socket.readyState === WebSocket.CLOSED) closed();
     else socket.addEventListener("close", closed);

@@ -29,7 +29,13 @@ export function planTimeOf({ motion: { robot_times: robot, times } }, moment) {
 }
 
 /** The simulation that is on for the shown gait, or null. */
-export const simulationJob = ({ jobs, selected }) => jobs.find((job) => job.gait === selected && job.kind === SIMULATE && ["queued", "running", "cancelling"].includes(job.state)) ?? null;
+export const simulationJob = ({ jobs, selected }) =>
+  jobs.find(
+    (job) =>
+      job.gait === selected
+      && job.kind === SIMULATE
+      && ["queued", "running", "cancelling"].includes(job.state),
+  ) ?? null;
 
 const traces = new WeakMap();
 
@@ -39,8 +45,11 @@ export function traceOf(simulation) {
   const { motion } = simulation;
   if (!traces.has(motion)) {
     traces.set(motion, {
-      plan_times: motion.times, laps: motion.times.map(() => 0), measured_mm: motion.strokes_mm,
-      foot_heights_mm: motion.feet.map((feet) => feet.map((foot) => foot[2] * 1000)), margins_mm: motion.margins_mm.map((margin) => [margin]),
+      plan_times: motion.times,
+      laps: motion.times.map(() => 0),
+      measured_mm: motion.strokes_mm,
+      foot_heights_mm: motion.feet.map((feet) => feet.map((foot) => foot[2] * 1000)),
+      margins_mm: motion.margins_mm.map((margin) => [margin]),
     });
   }
   return traces.get(motion);
@@ -57,11 +66,14 @@ export function followSimulation(store) {
     }
   });
   // A simulation of the same again, as with variations, has the same key and another time.
-  store.watch(({ view }) => [view?.simulation?.key, view?.simulation?.made], ({ view, simulation }) => {
-    const key = view?.simulation?.key ?? null;
-    if (simulation && simulation.key !== key) store.set({ simulation: null });
-    if (key) offer(key);
-  });
+  store.watch(
+    ({ view }) => [view?.simulation?.key, view?.simulation?.made],
+    ({ view, simulation }) => {
+      const key = view?.simulation?.key ?? null;
+      if (simulation && simulation.key !== key) store.set({ simulation: null });
+      if (key) offer(key);
+    },
+  );
 }
 
 /** Word and tone of a simulation. */

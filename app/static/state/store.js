@@ -55,6 +55,8 @@ const INITIAL = Object.freeze({
   operator: "",
 });
 
+/** @typedef {ReturnType<typeof createStore>} Store */
+
 /** Creates the page's store. */
 export const createStore = (initial = {}) => watchable({ ...INITIAL, ...initial });
 
@@ -79,7 +81,9 @@ export function watchable(initial) {
   }
 
   return {
-    get state() { return state; },
+    get state() {
+      return state;
+    },
     set(patch) {
       state = Object.freeze({ ...state, ...patch });
       if (scheduled && !held) return;
@@ -96,7 +100,9 @@ export function watchable(initial) {
       const watcher = { select, render, last: select(state) };
       watchers = [...watchers, watcher];
       render(state);
-      return () => { watchers = watchers.filter((other) => other !== watcher); };
+      return () => {
+        watchers = watchers.filter((other) => other !== watcher);
+      };
     },
   };
 }
@@ -108,7 +114,12 @@ export function shownDocument({ view, pending, gesture }) {
   if (!view) return null;
   if (shown.view !== view || shown.pending !== pending || shown.gesture !== gesture) {
     const edits = gesture ? [...pending, gesture] : pending;
-    Object.assign(shown, { view, pending, gesture, document: edits.reduce((document, edit) => edit.apply(document), view.document) });
+    Object.assign(shown, {
+      view,
+      pending,
+      gesture,
+      document: edits.reduce((document, edit) => edit.apply(document), view.document),
+    });
   }
   return shown.document;
 }
@@ -135,7 +146,8 @@ export function hasNoMotion(plan) {
 /** Why the check that was seen of a gait no longer counts. */
 export function checkGone(view, { revision }) {
   if (view.revision !== revision) return "the gait changed";
-  return view.simulation?.fresh ? "the gait was simulated again after the check"
+  return view.simulation?.fresh
+    ? "the gait was simulated again after the check"
     : "the plan was computed again after the check";
 }
 
@@ -150,8 +162,15 @@ export function acceptView(store, view) {
   const { selected, view: current, checked, pending } = store.state;
   if (view.id !== selected) return;
   if (current && current.id === view.id && view.stamp < current.stamp) return;
-  const seen = view.verdict || view.approval ? { word: view.approval ? "approved" : (checked[view.id]?.word ?? "checked"), revision: view.revision } : checked[view.id];
-  store.set({ view, pending: stillPending(pending, view), checked: seen ? { ...checked, [view.id]: seen } : checked });
+  const seen =
+    view.verdict || view.approval
+      ? { word: view.approval ? "approved" : (checked[view.id]?.word ?? "checked"), revision: view.revision }
+      : checked[view.id];
+  store.set({
+    view,
+    pending: stillPending(pending, view),
+    checked: seen ? { ...checked, [view.id]: seen } : checked,
+  });
 }
 
 /** Takes over a state of the robot unless it is older than what is shown: an answer may come after a later event. */
@@ -165,7 +184,8 @@ export function acceptLine(store, view) {
   const old = gaits.find(({ id }) => id === view.id);
   if (!old) return;
   const line = Object.fromEntries(Object.keys(old).map((key) => [key, view[key]]));
-  if (JSON.stringify(line) !== JSON.stringify(old)) store.set({ gaits: gaits.map((one) => (one === old ? line : one)) });
+  if (JSON.stringify(line) !== JSON.stringify(old))
+    store.set({ gaits: gaits.map((one) => (one === old ? line : one)) });
 }
 
 /** Takes over what can be undone now, where it is of the shown state: other tabs come and go. */
@@ -189,7 +209,10 @@ export function withJob(jobs, job) {
 /** True while the robot carries out a run or may still move. */
 export function runIsOn(robot) {
   if (!robot) return false;
-  return ["moving", "pausing", "paused", "stopping"].includes(robot.robot) || Boolean(robot.run && robot.run.phase !== "ended");
+  return (
+    ["moving", "pausing", "paused", "stopping"].includes(robot.robot)
+    || Boolean(robot.run && robot.run.phase !== "ended")
+  );
 }
 
 /** True while an approved plan is carried out; not while the robot is jogged or reset. */

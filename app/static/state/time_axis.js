@@ -20,14 +20,17 @@ let known = { times: null, borders: null };
 function bordersOf(times) {
   if (known.times !== times) {
     const middles = times.slice(1).map((time, index) => (time + times[index]) / 2);
-    const [first, last] = [times[0] - (times[1] - times[0]) / 2, times.at(-1) + (times.at(-1) - times.at(-2)) / 2];
+    const [first, last] = [
+      times[0] - (times[1] - times[0]) / 2,
+      times.at(-1) + (times.at(-1) - times.at(-2)) / 2,
+    ];
     known = { times, borders: [first, ...middles, last] };
   }
   return known.borders;
 }
 
 /**
- * @param {object} state of the store
+ * @param {Record<string, any>} state of the store
  * @returns {{samples: number, columns: number, step: number, duration: number, first: number, shown: number, start: number,
  *   times: number[]|null, borders: number[]|null}} `step` is a column's mean width and `start` the left edge of the first,
  *   s; the window begins at column `first` and is `shown` columns wide, both may be broken numbers; `times` of the samples
@@ -40,11 +43,21 @@ export function axisOf(state) {
   const planEnd = planTimes.at(-1) ?? 0;
   const times = document?.poses && planTimes.length === samples && samples > 1 ? planTimes : null;
   const borders = times && bordersOf(times);
-  const step = borders ? (borders.at(-1) - borders[0]) / samples : document?.timeline.sample_time ?? 0.4;
+  const step = borders ? (borders.at(-1) - borders[0]) / samples : (document?.timeline.sample_time ?? 0.4);
   const columns = borders ? samples : Math.max(samples, Math.round(planEnd / step) + 1, 1);
   const shown = clamp(state.zoom?.shown ?? columns, Math.min(LEAST_SHOWN, columns), columns);
   const first = clamp(state.zoom?.first ?? 0, 0, columns - shown);
-  return { samples, columns, step, duration: planEnd || Math.max(0, samples - 1) * step, first, shown, start: borders?.[0] ?? -step / 2, times, borders };
+  return {
+    samples,
+    columns,
+    step,
+    duration: planEnd || Math.max(0, samples - 1) * step,
+    first,
+    shown,
+    start: borders?.[0] ?? -step / 2,
+    times,
+    borders,
+  };
 }
 
 /** What a drawing on the axis depends on, as one value to be watched. */

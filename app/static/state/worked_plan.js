@@ -20,7 +20,8 @@ export const GREY = {
 export const isStuck = (state) => !state.iterate && !state.tryout && hasNoMotion(ownPlan(state));
 
 /** Whether the plan that worked is of the shown gait and of its robot. */
-const isOfShown = (state) => state.worked?.id === state.view?.id && state.worked.robot === shownDocument(state)?.robot;
+const isOfShown = (state) =>
+  state.worked?.id === state.view?.id && state.worked.robot === shownDocument(state)?.robot;
 
 /** What is drawn in grey: "worked", "nearest", or null where nothing is. */
 export function greyOf(state) {
@@ -36,11 +37,15 @@ const works = (plan) => Boolean(plan?.times.length) && planState(plan)[1] === "g
 
 /** Keeps the last plan of the shown gait that worked, for this tab alone. */
 export function mountWorkedPlan(store) {
-  store.watch((state) => [state.selected, state.view?.id, ownPlan(state)], (state) => {
-    const { selected, view, worked } = state;
-    const plan = ownPlan(state);
-    if (view?.id === selected && works(plan)) {
-      if (worked?.id !== selected || worked.plan !== plan) store.set({ worked: { id: selected, robot: shownDocument(state)?.robot, plan } });
-    } else if (worked && worked.id !== selected) store.set({ worked: null });
-  });
+  store.watch(
+    (state) => [state.selected, state.view?.id, ownPlan(state)],
+    (state) => {
+      const { selected, view, worked } = state;
+      const plan = ownPlan(state);
+      if (view?.id === selected && works(plan)) {
+        if (worked?.id !== selected || worked.plan !== plan)
+          store.set({ worked: { id: selected, robot: shownDocument(state)?.robot, plan } });
+      } else if (worked && worked.id !== selected) store.set({ worked: null });
+    },
+  );
 }

@@ -23,8 +23,8 @@ const ACTS = {
 };
 
 /** Why the act is not possible yet, in a sentence; why there is no motion stands in the step Design. */
-const lackOf = (state, reason) => (hasNoMotion(shownPlan(state)) ? "This gait has no motion yet."
-  : reason.split(/(?<=\.) /)[0]);
+const lackOf = (state, reason) =>
+  hasNoMotion(shownPlan(state)) ? "This gait has no motion yet." : reason.split(/(?<=\.) /)[0];
 
 /** The next act for the shown gait. */
 function nextAct(state) {
@@ -37,12 +37,16 @@ function nextAct(state) {
 function nextButton(store, step) {
   const [button, help] = [h("button", { class: "primary wide" }), h("p", { class: "why" })];
   const element = h("div", { class: "next-act" }, button, help);
-  onPress(button, () => {
-    const { step: where, button: id, focus } = ACTS[nextAct(store.state)];
-    openStep(where);
-    if (id) byId(id).click();
-    if (focus) byId(focus).focus();
-  }, toast);
+  onPress(
+    button,
+    () => {
+      const { step: where, button: id, focus } = ACTS[nextAct(store.state)];
+      openStep(where);
+      if (id) byId(id).click();
+      if (focus) byId(focus).focus();
+    },
+    toast,
+  );
   store.watch(gaitParts, (state) => {
     const act = ACTS[nextAct(state)];
     setText(button, act.text);

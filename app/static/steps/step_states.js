@@ -10,16 +10,45 @@ import { lowered } from "../lib/format.js";
 const state = (mark, word, share = null) => ({ mark, word, share });
 
 /** The parts of the store that a state depends on, but for those of the robot. */
-export const gaitParts = ({ view, jobs, simulation, selected, live, tryout, checked, pending, gesture, iterate, preview, poseSearch, seenWarnings }) => [
-  view, jobs, simulation, selected, live, tryout, checked, pending.length, gesture === null, iterate, preview === null, poseSearch?.state, seenWarnings,
+export const gaitParts = ({
+  view,
+  jobs,
+  simulation,
+  selected,
+  live,
+  tryout,
+  checked,
+  pending,
+  gesture,
+  iterate,
+  preview,
+  poseSearch,
+  seenWarnings,
+}) => [
+  view,
+  jobs,
+  simulation,
+  selected,
+  live,
+  tryout,
+  checked,
+  pending.length,
+  gesture === null,
+  iterate,
+  preview === null,
+  poseSearch?.state,
+  seenWarnings,
 ];
 
 const MARK_OF = { good: "done", caution: "old", bad: "failed", quiet: "none" };
 
 function designState(now) {
-  const busy = now.jobs.some((job) => job.gait === now.selected && ["optimise", "timing"].includes(job.kind) && jobIsOn(job));
+  const busy = now.jobs.some(
+    (job) => job.gait === now.selected && ["optimise", "timing"].includes(job.kind) && jobIsOn(job),
+  );
   if (busy) return state("running", "being optimised", 0.25);
-  if (now.view?.search?.state === "running" && !now.view.plan?.times.length) return state("running", "being searched", 0.25);
+  if (now.view?.search?.state === "running" && !now.view.plan?.times.length)
+    return state("running", "being searched", 0.25);
   const plan = shownPlan(now);
   const [word, tone] = planState(plan);
   // Below the margin that the robot needs only physics can say whether it walks.
@@ -30,14 +59,21 @@ function designState(now) {
 }
 
 /** True while an edit is under way, so that nothing that was computed is of what is shown. */
-const isEdited = ({ view, pending, gesture, live }) => Boolean(pending.length || gesture || (live && live.plan !== view?.plan));
+const isEdited = ({ view, pending, gesture, live }) =>
+  Boolean(pending.length || gesture || (live && live.plan !== view?.plan));
 
 /** The state of physics for the shown gait, with its word. */
 export function simulateState(now) {
   const job = simulationJob(now);
-  if (job) return state("running", job.state === "running" ? `${Math.round((job.share ?? 0) * 100)} %` : job.state, job.share ?? 0);
+  if (job)
+    return state(
+      "running",
+      job.state === "running" ? `${Math.round((job.share ?? 0) * 100)} %` : job.state,
+      job.share ?? 0,
+    );
   const last = now.jobs.find((one) => one.gait === now.selected && one.kind === "simulate");
-  if (!now.view?.simulation) return last?.state === "failed" ? state("failed", "failed") : state("none", "not yet");
+  if (!now.view?.simulation)
+    return last?.state === "failed" ? state("failed", "failed") : state("none", "not yet");
   const simulation = simulationOf(now);
   const isFresh = now.view.simulation.fresh && !isEdited(now);
   if (!simulation) return isFresh ? state("running", "being fetched", 0) : state("old", "before this edit");
@@ -69,7 +105,8 @@ export function checkState(now) {
 export function approvalState(now) {
   const { view, checked } = now;
   if (view?.approval && !isEdited(now)) return state("done", `by ${view.approval.by}`);
-  if (view?.approval || view?.revoked || (view && checked[view.id]?.word === "approved")) return state("old", "no longer valid");
+  if (view?.approval || view?.revoked || (view && checked[view.id]?.word === "approved"))
+    return state("old", "no longer valid");
   return state("none", "not yet");
 }
 
@@ -100,9 +137,14 @@ function runState(now) {
 
 /**
  * The state of each step.
- * @param {object} now the store's state
+ * @param {Record<string, any>} now the store's state
  * @returns {Record<"design"|"simulate"|"check"|"run", {mark: string, word: string, share: number|null}>}
  */
 export function stepStates(now) {
-  return { design: designState(now), simulate: simulateState(now), check: checkAndApprovalState(now), run: runState(now) };
+  return {
+    design: designState(now),
+    simulate: simulateState(now),
+    check: checkAndApprovalState(now),
+    run: runState(now),
+  };
 }

@@ -10,7 +10,8 @@ const STEPS = {
   design: { title: "Design", help: "Choose where and how the robot walks. The plan follows your edits." },
   simulate: { title: "Simulate", help: "Simulate exactly the waypoints that would be sent to the robot." },
   check: {
-    title: "Check & approve", help: "Check that the gait keeps every rule. Then you can approve the gait.",
+    title: "Check & approve",
+    help: "Check that the gait keeps every rule. Then you can approve the gait.",
   },
   run: { title: "Run", help: "Only an approved gait can be sent to the robot." },
 };
@@ -43,13 +44,17 @@ export function openStep(name) {
   setText(byId("step-help"), STEPS[name].help);
   byId("sections").scrollTop = 0;
   // What had the focus is hidden now, or another step's tab.
-  if (hadFocus && (hadFocus.matches(".pipeline") || !document.activeElement.checkVisibility())) byId(`tab-${name}`).focus();
+  if (hadFocus && (hadFocus.matches(".pipeline") || !document.activeElement.checkVisibility()))
+    byId(`tab-${name}`).focus();
   followers.forEach((act) => act(name));
 }
 
 function mountTab(name, index) {
   const tab = byId(`tab-${name}`);
-  const [mark, word] = [h("span", { class: "step-mark", "aria-hidden": "true" }), h("span", { class: "step-title", text: STEPS[name].title })];
+  const [mark, word] = [
+    h("span", { class: "step-mark", "aria-hidden": "true" }),
+    h("span", { class: "step-title", text: STEPS[name].title }),
+  ];
   tab.append(mark, word);
   tab.addEventListener("click", () => openStep(name));
   tab.addEventListener("keydown", (event) => {
@@ -68,7 +73,12 @@ function mountTab(name, index) {
 export function mountSteps(store) {
   const tabs = Object.fromEntries(NAMES.map((name, index) => [name, mountTab(name, index)]));
   openStep(current);
-  const watched = ({ robot, ...state }) => [...gaitParts(state), robot?.run, robot?.robot, robot?.previous_run];
+  const watched = ({ robot, ...state }) => [
+    ...gaitParts(state),
+    robot?.run,
+    robot?.robot,
+    robot?.previous_run,
+  ];
   store.watch(watched, (state) => {
     for (const [name, { mark, word, share }] of Object.entries(stepStates(state))) {
       const { tab, mark: disc } = tabs[name];

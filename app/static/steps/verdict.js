@@ -9,11 +9,13 @@ import { hasNoMotion, shownPlan } from "../state/store.js";
 import { approvalState, checkState, gaitParts, simulateState, stepStates } from "./step_states.js";
 import { openStep } from "./steps.js";
 
-const MARGIN_HELP = "Stability margin: how far the balance point stays inside the area between "
+const MARGIN_HELP =
+  "Stability margin: how far the balance point stays inside the area between "
   + "the feet on the ground. Below 0 the robot tips. "
   + "For a motion that the optimiser found, the balance point is the centre of pressure. "
   + "The balance point of any other motion is the centre of mass.";
-const LIVE_HELP = "A live plan is computed again after every edit. "
+const LIVE_HELP =
+  "A live plan is computed again after every edit. "
   + "The footholds and the body height of a live plan are set in advance, not optimised.";
 
 const NO_PLAN = "There is no plan yet. Press Optimise to see the gait move.";
@@ -33,9 +35,11 @@ function planPart(state) {
   const margin = isMotion && plan.balance !== null ? `margin ${mm(plan.balance)} mm` : null;
   const figure = [word === USUAL && margin ? null : lowered(word), margin].filter(Boolean).join(", ");
   const tone = !margin ? null : plan.balance < 0 ? "bad" : mark === "old" && isThin(plan) ? "caution" : null;
-  const thin = tone !== "caution" ? ""
-    : `The robot needs a stability margin of ${mm(plan.robot_margin)} mm. `
-      + "Below this margin only Simulate shows whether the robot walks.";
+  const thin =
+    tone !== "caution"
+      ? ""
+      : `The robot needs a stability margin of ${mm(plan.robot_margin)} mm. `
+        + "Below this margin only Simulate shows whether the robot walks.";
   const live = word === USUAL && plan.live ? LIVE_HELP : "";
   const help = [`${word}.`, thin, plan.note, live, isMotion ? MARGIN_HELP : ""].filter(Boolean).join(" ");
   return { mark, figure, tone, help };
@@ -63,7 +67,9 @@ function simulatedPart(state) {
   if (mark === "old") {
     return { mark, figure, help: "The simulation is out of date. Simulate the gait again." };
   }
-  const share = variations ? ` With slightly changed conditions, the robot walked in ${walking} of ${variations.count} simulations.` : "";
+  const share = variations
+    ? ` With slightly changed conditions, the robot walked in ${walking} of ${variations.count} simulations.`
+    : "";
   return { mark, figure, help: `${capital(word)}.${share}` };
 }
 
@@ -76,7 +82,12 @@ function checkedPart(state) {
 
 function approvedPart(state) {
   const { mark, word } = approvalState(state);
-  const help = mark === "none" ? "Not approved yet." : mark === "old" ? (state.view?.revoked ?? "The gait changed, so it is no longer approved.") : `Approval: ${word}.`;
+  const help =
+    mark === "none"
+      ? "Not approved yet."
+      : mark === "old"
+        ? (state.view?.revoked ?? "The gait changed, so it is no longer approved.")
+        : `Approval: ${word}.`;
   return { mark, figure: mark === "none" ? NONE : word, help };
 }
 
@@ -90,15 +101,25 @@ const PARTS = [
 
 function build({ name, step, of }) {
   const [mark, figure] = [h("span", { class: "step-mark", "aria-hidden": "true" }), h("b")];
-  const element = h("button", { class: "verdict-part", on: { click: () => openStep(step) } }, mark, h("span", { class: "quiet", text: name }), " ", figure);
-  return { element, show(state) {
-    const { mark: kind = null, figure: text, help, tone = null } = of(state);
-    mark.hidden = kind === null;
-    setAttribute(mark, "data-mark", kind);
-    setText(figure, text);
-    setAttribute(figure, "data-tone-text", tone);
-    setAttribute(element, "title", help);
-  } };
+  const element = h(
+    "button",
+    { class: "verdict-part", on: { click: () => openStep(step) } },
+    mark,
+    h("span", { class: "quiet", text: name }),
+    " ",
+    figure,
+  );
+  return {
+    element,
+    show(state) {
+      const { mark: kind = null, figure: text, help, tone = null } = of(state);
+      mark.hidden = kind === null;
+      setAttribute(mark, "data-mark", kind);
+      setText(figure, text);
+      setAttribute(figure, "data-tone-text", tone);
+      setAttribute(element, "title", help);
+    },
+  };
 }
 
 /** What is shown instead of the gait's plan, in a few words. */
@@ -117,7 +138,12 @@ function announcer() {
     clearTimeout(timer);
     timer = setTimeout(() => {
       const { design, simulate } = stepStates(state);
-      const words = { Plan: design.word, Simulated: simulate.word, Checked: checkState(state).word, Approved: approvalState(state).word };
+      const words = {
+        Plan: design.word,
+        Simulated: simulate.word,
+        Checked: checkState(state).word,
+        Approved: approvalState(state).word,
+      };
       const changed = Object.entries(words).filter(([name, word]) => announced && announced[name] !== word);
       if (changed.length) announce(`${changed.map(([name, word]) => `${name}: ${word}`).join(". ")}.`);
       announced = words;

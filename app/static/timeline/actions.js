@@ -16,14 +16,19 @@ const NOTHING = "No cells are selected. Select cells first, with Shift+arrows, C
 function leftOut({ timeline }, [foot, sample], block) {
   const feet = foot + block.length - timeline.feet.length;
   const samples = sample + block[0].length - timeline.feet[0].length;
-  const parts = [samples > 0 && `${counted(samples, "sample")} after the end`, feet > 0 && `${counted(feet, "row")} below the last foot`].filter(Boolean);
-  return parts.length ? `Some of the copied cells did not fit and were not pasted: ${parts.join(" and ")}.` : null;
+  const parts = [
+    samples > 0 && `${counted(samples, "sample")} after the end`,
+    feet > 0 && `${counted(feet, "row")} below the last foot`,
+  ].filter(Boolean);
+  return parts.length
+    ? `Some of the copied cells did not fit and were not pasted: ${parts.join(" and ")}.`
+    : null;
 }
 
 const focusOnGrid = () => Boolean(globalThis.document.activeElement?.closest("#timeline [role=gridcell]"));
 
 /**
- * @param {{store: object, edits: object, playback: Playback, focused: () => [number, number]}} page `focused` gives the cell
+ * @param {{store: Record<string, any>, edits: Record<string, any>, playback: import("../preview/playback.js").Playback, focused: () => [number, number]}} page `focused` gives the cell
  *   that holds the focus of the timeline
  */
 export function createActions({ store, edits, playback, focused }) {
@@ -65,7 +70,10 @@ export function createActions({ store, edits, playback, focused }) {
   function toggleLock() {
     const cells = chosen();
     if (!cells) return toast(NOTHING);
-    return act(outcomeOf("lock", { ...state(), region: cells }).reason ? "unlock" : "lock", undefined, { ...state(), region: cells });
+    return act(outcomeOf("lock", { ...state(), region: cells }).reason ? "unlock" : "lock", undefined, {
+      ...state(),
+      region: cells,
+    });
   }
 
   function clear() {
@@ -89,21 +97,33 @@ export function createActions({ store, edits, playback, focused }) {
     const at = region() ? [region().feet[0], region().samples[0]] : focused();
     const apply = (now) => withBlock(now, at, block);
     const refusal = heldBack(document(), apply(document()));
-    if (refusal) return toast(refusal === "Nothing would change." ? "These cells already have the pasted values." : refusal);
+    if (refusal)
+      return toast(
+        refusal === "Nothing would change." ? "These cells already have the pasted values." : refusal,
+      );
     const { feet } = document().timeline;
     const selection = {
       feet: [at[0], Math.min(at[0] + block.length, feet.length) - 1],
       samples: [at[1], Math.min(at[1] + block[0].length, feet[0].length) - 1],
     };
-    return put({ apply, clipped: leftOut(document(), at, block), label: `Paste at ${regionText(document(), { feet: [at[0], at[0]], samples: [at[1], at[1]] })}`, drawing: true, selection });
+    return put({
+      apply,
+      clipped: leftOut(document(), at, block),
+      label: `Paste at ${regionText(document(), { feet: [at[0], at[0]], samples: [at[1], at[1]] })}`,
+      drawing: true,
+      selection,
+    });
   }
 
   function loop() {
     const chosenNow = region();
     if (!chosenNow) return playback.setLoop(!playback.loop);
     const axis = axisOf(store.state);
-    const [start, end] = [chosenNow.samples[0], chosenNow.samples[1] + 1].map((column) => columnTime(axis, column)).map((time) => Math.min(Math.max(time, 0), playback.duration));
-    const same = playback.loop && Math.abs(playback.loop[0] - start) < 1e-9 && Math.abs(playback.loop[1] - end) < 1e-9;
+    const [start, end] = [chosenNow.samples[0], chosenNow.samples[1] + 1]
+      .map((column) => columnTime(axis, column))
+      .map((time) => Math.min(Math.max(time, 0), playback.duration));
+    const same =
+      playback.loop && Math.abs(playback.loop[0] - start) < 1e-9 && Math.abs(playback.loop[1] - end) < 1e-9;
     playback.setLoop(same ? false : [start, end]);
     if (!same && (playback.time < start || playback.time > end)) playback.setTime(start);
     return undefined;
@@ -125,7 +145,12 @@ export function createActions({ store, edits, playback, focused }) {
     },
     scope: (id) => (document() ? regionText(document(), stateFor(id).region ?? wholeOf(document())) : ""),
     state: stateFor,
-    take, cut, clear, paste, loop, toggleLock,
+    take,
+    cut,
+    clear,
+    paste,
+    loop,
+    toggleLock,
     copyNow: () => putBlock(take()),
     cutNow: () => {
       const block = cut();

@@ -4,12 +4,17 @@ import { clamp } from "../lib/clamp.js";
 import { axisOf, columnAt } from "../state/time_axis.js";
 
 /** The nearest cell on a timeline. */
-export const nearestCell = ([foot, sample], feet, samples) => [clamp(foot, 0, feet - 1), clamp(sample, 0, samples - 1)];
+export const nearestCell = ([foot, sample], feet, samples) => [
+  clamp(foot, 0, feet - 1),
+  clamp(sample, 0, samples - 1),
+];
 
 /** The cell that an element belongs to, as [foot, sample], or null. */
 export const cellOf = (target) => {
   const cell = target.closest?.("[role=gridcell]");
-  return cell ? [Number(cell.closest("[role=row]").dataset.foot) - 1, Number(cell.getAttribute("aria-colindex")) - 1] : null;
+  return cell
+    ? [Number(cell.closest("[role=row]").dataset.foot) - 1, Number(cell.getAttribute("aria-colindex")) - 1]
+    : null;
 };
 
 /** The cell under the focus: one of all cells is reached by Tab, the arrows move on from there. */
@@ -39,7 +44,9 @@ export function rovingFocus(rows, reveal) {
 /** Turns places on the screen into cells; measured once a drag, so that no move asks for the layout. */
 export function cellFinder(store, rows) {
   const parts = rows();
-  const [first, last] = [parts[0], parts.at(-1)].map(({ strip }) => strip.parentElement.getBoundingClientRect());
+  const [first, last] = [parts[0], parts.at(-1)].map(({ strip }) =>
+    strip.parentElement.getBoundingClientRect(),
+  );
   return (x, y) => {
     const axis = axisOf(store.state);
     const foot = Math.floor(((y - first.top) / (last.bottom - first.top)) * parts.length);
@@ -49,6 +56,7 @@ export function cellFinder(store, rows) {
 
 /** Where the next border between stance and swing lies on a row, from a sample on. */
 export function nextBorder(row, sample, way) {
-  for (let at = sample + way; at > 0 && at < row.length - 1; at += way) if (row[at] !== row[at - way]) return at;
+  for (let at = sample + way; at > 0 && at < row.length - 1; at += way)
+    if (row[at] !== row[at - way]) return at;
   return way > 0 ? row.length - 1 : 0;
 }

@@ -14,12 +14,21 @@ export const textOf = (block) => block.join("\n");
  * @returns {{block: string[]}|{reason: string}}
  */
 export function blockFrom(text) {
-  const lines = text.split(/\r?\n/).map((line) => line.replace(/[\s,;]/g, "")).filter(Boolean);
+  const lines = text
+    .split(/\r?\n/)
+    .map((line) => line.replace(/[\s,;]/g, ""))
+    .filter(Boolean);
   if (lines.length === 0) return { reason: "The clipboard is empty. Copy cells of the timeline first." };
   const wrong = lines.findIndex((line) => /[^01]/.test(line));
-  if (wrong >= 0) return { reason: `The clipboard has no timeline cells. Line ${wrong + 1} may contain only 1 (stance) and 0 (swing).` };
+  if (wrong >= 0)
+    return {
+      reason: `The clipboard has no timeline cells. Line ${wrong + 1} may contain only 1 (stance) and 0 (swing).`,
+    };
   const uneven = lines.findIndex((line) => line.length !== lines[0].length);
-  if (uneven >= 0) return { reason: `Line ${uneven + 1} of the clipboard has ${lines[uneven].length} samples, but line 1 has ${lines[0].length}. All lines must have the same length.` };
+  if (uneven >= 0)
+    return {
+      reason: `Line ${uneven + 1} of the clipboard has ${lines[uneven].length} samples, but line 1 has ${lines[0].length}. All lines must have the same length.`,
+    };
   return { block: lines };
 }
 
@@ -46,7 +55,12 @@ export async function clipboardText() {
 /** True where copy, cut and paste mean something else than the timeline: text that is marked or typed, other tables. */
 const isElsewhere = (event) => {
   const place = event.target instanceof Element ? event.target : document.activeElement;
-  if (place?.closest("input, textarea, select, [contenteditable], [role=dialog], #segments, [role=grid]:not(#timeline)")) return true;
+  if (
+    place?.closest(
+      "input, textarea, select, [contenteditable], [role=dialog], #segments, [role=grid]:not(#timeline)",
+    )
+  )
+    return true;
   return event.type !== "paste" && !document.getSelection().isCollapsed;
 };
 

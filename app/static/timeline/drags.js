@@ -79,7 +79,10 @@ export function moving(store, edits, start, part) {
     commit() {
       const { to, by } = now;
       if (!touched) edits.paint([start], false);
-      else if (by) edits.edit((document) => withSwing(document, foot, from, to), movedLabel(foot, part, to, by), { drawing: true });
+      else if (by)
+        edits.edit((document) => withSwing(document, foot, from, to), movedLabel(foot, part, to, by), {
+          drawing: true,
+        });
     },
   };
 }
@@ -136,7 +139,10 @@ export function carrying(store, edits, start, { copies, tap }) {
       reason = by ? heldBack(document, relocated(document, region, by, copies)) : null;
       if (reason && reason !== "Nothing would change.") toast(reason);
       const shift = by;
-      store.set({ selection: selectionAt(by), gesture: reason || !by ? null : { apply: (now) => relocated(now, region, shift, copies) } });
+      store.set({
+        selection: selectionAt(by),
+        gesture: reason || !by ? null : { apply: (now) => relocated(now, region, shift, copies) },
+      });
     },
     commit() {
       const shift = by;

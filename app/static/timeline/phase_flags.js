@@ -46,7 +46,10 @@ function measurer() {
 }
 
 function build(marks) {
-  const [box, flag] = [h("div", { class: "phase-box", hidden: true }), h("div", { class: "phase-flag", hidden: true })];
+  const [box, flag] = [
+    h("div", { class: "phase-box", hidden: true }),
+    h("div", { class: "phase-flag", hidden: true }),
+  ];
   marks.append(box, flag);
   return { box, flag };
 }
@@ -54,8 +57,11 @@ function build(marks) {
 /** Where a phase lies on the window, px; null where it is out of sight. */
 function placeOn(axis, width, { first, last, words }, widthOf) {
   const short = shortWords(words);
-  const [left, right] = [first, last + 1].map((column) => columnFraction(axis, Math.min(column, axis.samples)) * width);
-  return right <= left || right <= 0 || left >= width ? null
+  const [left, right] = [first, last + 1].map(
+    (column) => columnFraction(axis, Math.min(column, axis.samples)) * width,
+  );
+  return right <= left || right <= 0 || left >= width
+    ? null
     : { left, right, words, short: widthOf(short), width: widthOf(words), shortWords: short };
 }
 
@@ -70,7 +76,10 @@ function show({ box, flag }, phase, place) {
   if (!phase) return;
   span(box, phase.left, phase.right - phase.left);
   span(flag, place.left, place.width);
-  const words = new Map([[phase.short, phase.shortWords], [phase.width, phase.words]]);
+  const words = new Map([
+    [phase.short, phase.shortWords],
+    [phase.width, phase.words],
+  ]);
   setText(flag, words.get(place.width) ?? "!");
 }
 
@@ -88,11 +97,19 @@ export function mountPhaseFlags(store, marks) {
     parts.forEach((part, index) => show(part, inView[index], places[index]));
   }
 
-  store.watch((state) => [shownPlan(state)?.live?.lacks], (state) => {
-    phases = missingPhases(shownPlan(state));
-    if (phases.length || parts.length) place();
-  });
-  store.watch((state) => [axisKey(state)], () => { if (phases.length) place(); });
+  store.watch(
+    (state) => [shownPlan(state)?.live?.lacks],
+    (state) => {
+      phases = missingPhases(shownPlan(state));
+      if (phases.length || parts.length) place();
+    },
+  );
+  store.watch(
+    (state) => [axisKey(state)],
+    () => {
+      if (phases.length) place();
+    },
+  );
   new ResizeObserver(([{ contentRect }]) => {
     width = contentRect.width;
     if (phases.length) place();

@@ -52,8 +52,8 @@ function place(marker, overlayWidth, fraction) {
 
 /**
  * Wires playback to the page.
- * @param {object} store
- * @param {Playback} playback
+ * @param {import("../state/store.js").Store} store
+ * @param {import("../preview/playback.js").Playback} playback
  * @param {(time: number) => void} showFigures called with every move of the playhead
  * @param {() => void} loop what the key L does
  */
@@ -84,16 +84,27 @@ export function mountPlayback(store, playback, showFigures, loop) {
     movePlayhead();
     moveRobot();
   }).observe(overlay);
-  store.watch((state) => [state.view?.id, shownPlan(state), state.view?.document.timeline.sample_time, state.pending.length], (state) => {
-    axis = axisOf(state);
-    playback.setPlan(axis.duration, axis.times ?? axis.step);
-    movePlayhead();
-  });
-  store.watch((state) => [axisKey(state)], (state) => {
-    axis = axisOf(state);
-    movePlayhead();
-    moveRobot();
-  });
+  store.watch(
+    (state) => [
+      state.view?.id,
+      shownPlan(state),
+      state.view?.document.timeline.sample_time,
+      state.pending.length,
+    ],
+    (state) => {
+      axis = axisOf(state);
+      playback.setPlan(axis.duration, axis.times ?? axis.step);
+      movePlayhead();
+    },
+  );
+  store.watch(
+    (state) => [axisKey(state)],
+    (state) => {
+      axis = axisOf(state);
+      movePlayhead();
+      moveRobot();
+    },
+  );
   store.watch(({ robot, view }) => [robot?.run, robot?.robot, view?.plan], moveRobot);
   showState(playback);
 }

@@ -20,15 +20,34 @@ function showNote(store, edits) {
   const { refused, view } = store.state;
   const plan = shownPlan(store.state);
   // An adapted motion may be out of reach; its search says whether the gait is. Of a drawing the inspector says why.
-  const isSaid = plan?.live?.status === "infeasible" || plan?.source === "adapted" || isRefusedDrawing(store.state);
+  const isSaid =
+    plan?.live?.status === "infeasible" || plan?.source === "adapted" || isRefusedDrawing(store.state);
   const refusal = isSaid ? null : plan?.refusal?.sentence;
   const notice = view?.notice === dismissed ? null : view?.notice;
   const sentence = refused ?? refusal ?? notice ?? null;
   if (!sentence) return note.replaceChildren();
-  const dismiss = () => { dismissed = view.notice; showNote(store, edits); };
-  const text = h("p", { text: refused ? `Not accepted: ${refused}` : sentence, title: sentence, data: { toneText: refused || refusal ? "bad" : "caution" } });
-  return note.replaceChildren(text, ...(refused ? [h("button", { text: "Take it back", on: { click: edits.dropRefused } })] : []),
-    ...(sentence === notice ? [h("button", { class: "plain icon-only", "aria-label": "Dismiss the note", on: { click: dismiss } }, icon("close"))] : []));
+  const dismiss = () => {
+    dismissed = view.notice;
+    showNote(store, edits);
+  };
+  const text = h("p", {
+    text: refused ? `Not accepted: ${refused}` : sentence,
+    title: sentence,
+    data: { toneText: refused || refusal ? "bad" : "caution" },
+  });
+  return note.replaceChildren(
+    text,
+    ...(refused ? [h("button", { text: "Take it back", on: { click: edits.dropRefused } })] : []),
+    ...(sentence === notice
+      ? [
+          h(
+            "button",
+            { class: "plain icon-only", "aria-label": "Dismiss the note", on: { click: dismiss } },
+            icon("close"),
+          ),
+        ]
+      : []),
+  );
 }
 
 /** Gives back what a function made of a value the last time, as long as the value is the same. */
@@ -65,7 +84,9 @@ export function mountTimeline(store, edits, playback, reveal) {
   function place({ samples, shown, first, borders }) {
     grid.toggleAttribute("data-dense", shown > DENSE);
     for (const { strip, cells, bars } of parts) {
-      cells.forEach((cell, sample) => { cell.style.flexGrow = borders ? borders[sample + 1] - borders[sample] : ""; });
+      cells.forEach((cell, sample) => {
+        cell.style.flexGrow = borders ? borders[sample + 1] - borders[sample] : "";
+      });
       for (const { style } of [strip, bars.layer]) {
         style.width = `${(100 * samples) / shown}%`;
         style.transform = first ? `translateX(${(-100 * first) / samples}%)` : "";
@@ -78,29 +99,59 @@ export function mountTimeline(store, edits, playback, reveal) {
   function showBars() {
     const gait = previewedDocument(store.state);
     const axis = axisOf(store.state);
-    if (gait && parts.length === gait.timeline.feet.length) parts.forEach(({ bars }, foot) => drawBars(bars, gait.timeline.feet[foot], axis, width));
+    if (gait && parts.length === gait.timeline.feet.length)
+      parts.forEach(({ bars }, foot) => drawBars(bars, gait.timeline.feet[foot], axis, width));
   }
 
   function render(state) {
     const gait = previewedDocument(state);
     if (!gait) return;
     const { feet, locked } = gait.timeline;
-    if (parts.length !== feet.length || parts[0].cells.length !== feet[0].length) fit(feet.length, feet[0].length);
+    if (parts.length !== feet.length || parts[0].cells.length !== feet[0].length)
+      fit(feet.length, feet[0].length);
     const before = state.preview ? shownDocument(state).timeline : null;
-    const [findings, lacks] = [findingsOf(state.live ? null : state.view.verdict), missingOf(shownPlan(state))];
-    parts.forEach((part, foot) => drawRow(part, {
-      foot, steps: feet[foot], locked: locked?.[foot], findings, lacks, periodic: gait.options?.boundary === "periodic",
-      before: before && { steps: before.feet[foot], locked: before.locked?.[foot] }, role: state.view.roles?.[foot] ?? "",
-    }));
+    const [findings, lacks] = [
+      findingsOf(state.live ? null : state.view.verdict),
+      missingOf(shownPlan(state)),
+    ];
+    parts.forEach((part, foot) =>
+      drawRow(part, {
+        foot,
+        steps: feet[foot],
+        locked: locked?.[foot],
+        findings,
+        lacks,
+        periodic: gait.options?.boundary === "periodic",
+        before: before && { steps: before.feet[foot], locked: before.locked?.[foot] },
+        role: state.view.roles?.[foot] ?? "",
+      }),
+    );
     showBars();
     grid.toggleAttribute("data-refused", Boolean(state.refused));
   }
 
-  store.watch((state) => [state.view, state.pending, state.gesture, state.preview, state.refused, shownPlan(state)], render);
-  store.watch((state) => [axisKey(state), parts.length], (state) => place(axisOf(state)));
-  store.watch((state) => [state.view, state.refused, shownPlan(state), isRefusedDrawing(state)], () => showNote(store, edits));
-  store.watch(({ selected }) => [selected], () => store.set({ selection: null, preview: null, zoom: null }));
-  store.watch(({ view, pending }) => [view, pending], ({ preview }) => { if (preview) store.set({ preview: null }); });
+  store.watch(
+    (state) => [state.view, state.pending, state.gesture, state.preview, state.refused, shownPlan(state)],
+    render,
+  );
+  store.watch(
+    (state) => [axisKey(state), parts.length],
+    (state) => place(axisOf(state)),
+  );
+  store.watch(
+    (state) => [state.view, state.refused, shownPlan(state), isRefusedDrawing(state)],
+    () => showNote(store, edits),
+  );
+  store.watch(
+    ({ selected }) => [selected],
+    () => store.set({ selection: null, preview: null, zoom: null }),
+  );
+  store.watch(
+    ({ view, pending }) => [view, pending],
+    ({ preview }) => {
+      if (preview) store.set({ preview: null });
+    },
+  );
   new ResizeObserver(([{ contentRect }]) => {
     width = contentRect.width;
     showBars();

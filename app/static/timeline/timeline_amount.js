@@ -16,15 +16,28 @@ function sentenceOf({ name, least, most, unit }, value) {
 
 function numberField(label, value, unit, step = 1) {
   const input = h("input", { type: "number", step, "aria-label": label, value });
-  return { input, row: h("label", { class: "amount" }, h("span", { text: label }), input, h("span", { class: "unit", text: unit })) };
+  return {
+    input,
+    row: h(
+      "label",
+      { class: "amount" },
+      h("span", { text: label }),
+      input,
+      h("span", { class: "unit", text: unit }),
+    ),
+  };
 }
 
 /** The factor and the new length set each other; `wrong()` returns the error in the typed factor, or null. */
 function factorField(length, from, changed) {
   const field = numberField("Factor", "1", "×", 0.1);
-  const show = () => { field.input.value = String(Math.round((Number(length.value) / from()) * 100) / 100); };
+  const show = () => {
+    field.input.value = String(Math.round((Number(length.value) / from()) * 100) / 100);
+  };
   const wrong = () => (Number(field.input.value) > 0 ? null : "“Factor” needs a number above 0.");
-  length.addEventListener("input", () => { if (whole(length.value)) show(); });
+  length.addEventListener("input", () => {
+    if (whole(length.value)) show();
+  });
   field.input.addEventListener("input", () => {
     if (!wrong()) length.value = String(Math.max(1, Math.round(from() * Number(field.input.value))));
     changed();
@@ -46,7 +59,11 @@ export function fitAbove(place, popover) {
 export function openAmount({ actions, id, place, anchor, close }) {
   const { name, amount } = OPERATIONS[id];
   const region = () => actions.state(id).region ?? wholeOf(actions.state(id).document);
-  const { input, row } = numberField(amount.name, amount.start({ ...actions.state(id), region: region() }), amount.unit);
+  const { input, row } = numberField(
+    amount.name,
+    amount.start({ ...actions.state(id), region: region() }),
+    amount.unit,
+  );
   const title = h("h3", { text: name });
   const note = h("p", { class: "note", role: "status" });
   const apply = h("button", { type: "submit", class: "primary", text: "Apply" });
@@ -72,9 +89,26 @@ export function openAmount({ actions, id, place, anchor, close }) {
   }
 
   const factor = amount.factor ? factorField(input, () => lengthOf(region()), look) : null;
-  const cancel = h("button", { type: "button", text: "Cancel", on: { click: () => { close(); anchor.focus(); } } });
-  const form = h("form", { novalidate: true, on: { submit: (event) => event.preventDefault() } },
-    title, scope, row, factor?.row, note, h("div", { class: "buttons" }, cancel, apply));
+  const cancel = h("button", {
+    type: "button",
+    text: "Cancel",
+    on: {
+      click: () => {
+        close();
+        anchor.focus();
+      },
+    },
+  });
+  const form = h(
+    "form",
+    { novalidate: true, on: { submit: (event) => event.preventDefault() } },
+    title,
+    scope,
+    row,
+    factor?.row,
+    note,
+    h("div", { class: "buttons" }, cancel, apply),
+  );
   const popover = h("div", { class: "op-popover", role: "dialog", "aria-label": name }, form);
   form.addEventListener("submit", finish);
   input.addEventListener("input", look);

@@ -8,7 +8,16 @@
 
 import { axisOf, columnFraction } from "../state/time_axis.js";
 import { cellFinder, cellOf, nearestCell, nextBorder, rovingFocus } from "./cells.js";
-import { carrying, isLocked, locking, lockRegion, moving, painting, selecting, reportLocked } from "./drags.js";
+import {
+  carrying,
+  isLocked,
+  locking,
+  lockRegion,
+  moving,
+  painting,
+  selecting,
+  reportLocked,
+} from "./drags.js";
 import { spanning, regionText } from "../document/region.js";
 import { createSelecting, isSelected } from "../state/selection.js";
 import { whyNotDrawn } from "../document/drawable.js";
@@ -19,17 +28,23 @@ import { announce, toast } from "../lib/toasts.js";
 const PAINTS = "Hold Alt or B and drag to paint.";
 const ELSEWHERE = "Drag with Shift to lock cells. Drag with Ctrl to select cells.";
 const PAINT_HELP = {
-  stance: `Click to change this cell to swing. Drag to paint cells. ${ELSEWHERE}`, middle: `Drag to move the swing. Click to change this cell to stance. ${PAINTS}`,
-  end: `Drag to move this end of the swing. Click to change this cell to stance. ${PAINTS}`, locked: "This cell is locked. To unlock cells, drag from here with Shift.",
+  stance: `Click to change this cell to swing. Drag to paint cells. ${ELSEWHERE}`,
+  middle: `Drag to move the swing. Click to change this cell to stance. ${PAINTS}`,
+  end: `Drag to move this end of the swing. Click to change this cell to stance. ${PAINTS}`,
+  locked: "This cell is locked. To unlock cells, drag from here with Shift.",
 };
 const TOOL_HELP = {
-  select: "Drag to select cells. Double-click to select a swing. "
+  select:
+    "Drag to select cells. Double-click to select a swing. "
     + "Drag selected cells to move them. Drag selected cells with Alt to copy them.",
   lock: "Drag to lock cells. To unlock cells, start the drag on a locked cell.",
 };
 
 function helpOf(tool, part, fixed) {
-  return TOOL_HELP[tool] ?? PAINT_HELP[fixed ? "locked" : part === null ? "stance" : part === "middle" ? "middle" : "end"];
+  return (
+    TOOL_HELP[tool]
+    ?? PAINT_HELP[fixed ? "locked" : part === null ? "stance" : part === "middle" ? "middle" : "end"]
+  );
 }
 
 /** Whether the focused cell was reached by keyboard: after a pointer gesture Space plays, and changes no cell. */
@@ -38,15 +53,21 @@ const byKeyboard = (grid) => grid.dataset.pointed === undefined;
 /** Whether the key B is held. */
 function heldBrush() {
   let held = false;
-  window.addEventListener("keydown", (event) => { if (event.key.toLowerCase() === "b") held = !event.ctrlKey && !event.metaKey; });
-  window.addEventListener("keyup", (event) => { if (event.key.toLowerCase() === "b") held = false; });
-  window.addEventListener("blur", () => { held = false; });
+  window.addEventListener("keydown", (event) => {
+    if (event.key.toLowerCase() === "b") held = !event.ctrlKey && !event.metaKey;
+  });
+  window.addEventListener("keyup", (event) => {
+    if (event.key.toLowerCase() === "b") held = false;
+  });
+  window.addEventListener("blur", () => {
+    held = false;
+  });
   return () => held;
 }
 
 /**
- * @param {object} store
- * @param {object} edits
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
  * @param {HTMLElement} grid
  * @param {() => Array} rows the drawn rows, each with its `cells`
  * @param {(sample: number) => void} reveal brings a sample into the shown window
@@ -75,17 +96,24 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
   function dragOf(event, start, from) {
     const { tool } = store.state;
     const whyNot = whyNotDrawn(document());
-    if (whyNot) return event.ctrlKey || event.metaKey || tool === "select" ? selecting(selection, start) : toast(whyNot);
+    if (whyNot)
+      return event.ctrlKey || event.metaKey || tool === "select"
+        ? selecting(selection, start)
+        : toast(whyNot);
     if (event.shiftKey) return locking(store, edits, start, () => selection.extendTo(start, from));
     if (event.ctrlKey || event.metaKey) return selecting(selection, start);
     if (tool === "lock") return locking(store, edits, start);
     if (tool === "select") {
       const tap = () => selection.between(start, start);
-      return isSelected(store.state, start) ? carrying(store, edits, start, { copies: event.altKey, tap }) : selecting(selection, start);
+      return isSelected(store.state, start)
+        ? carrying(store, edits, start, { copies: event.altKey, tap })
+        : selecting(selection, start);
     }
     selection.clear();
     if (isLocked(document(), start)) return reportLocked(start);
-    return !isSwing(start) || event.altKey || brush() ? painting(store, edits, start) : moving(store, edits, start, partHeld(start, event.clientX));
+    return !isSwing(start) || event.altKey || brush()
+      ? painting(store, edits, start)
+      : moving(store, edits, start, partHeld(start, event.clientX));
   }
 
   function begin(event) {
@@ -139,9 +167,14 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
     const row = document().timeline.feet[foot];
     const border = event.ctrlKey || event.metaKey;
     const goals = {
-      ArrowLeft: [foot, border ? nextBorder(row, sample, -1) : sample - 1], ArrowRight: [foot, border ? nextBorder(row, sample, 1) : sample + 1],
-      ArrowUp: [foot - 1, sample], ArrowDown: [foot + 1, sample],
-      Home: [border ? 0 : foot, 0], End: [border ? Infinity : foot, Infinity], PageUp: [0, sample], PageDown: [Infinity, sample],
+      ArrowLeft: [foot, border ? nextBorder(row, sample, -1) : sample - 1],
+      ArrowRight: [foot, border ? nextBorder(row, sample, 1) : sample + 1],
+      ArrowUp: [foot - 1, sample],
+      ArrowDown: [foot + 1, sample],
+      Home: [border ? 0 : foot, 0],
+      End: [border ? Infinity : foot, Infinity],
+      PageUp: [0, sample],
+      PageDown: [Infinity, sample],
     };
     return goals[event.key] ?? null;
   }
@@ -157,9 +190,20 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
     if (!here || event.altKey) return;
     const head = event.shiftKey ? (selection.head() ?? here) : here;
     const goal = goalOf(event, head);
-    const does = goal === null ? act(event, here) : event.shiftKey
-      ? () => extendTo(nearestCell(goal, document().timeline.feet.length, document().timeline.feet[0].length), here)
-      : () => { selection.clear(); delete grid.dataset.pointed; roving.focus(goal); };
+    const does =
+      goal === null
+        ? act(event, here)
+        : event.shiftKey
+          ? () =>
+              extendTo(
+                nearestCell(goal, document().timeline.feet.length, document().timeline.feet[0].length),
+                here,
+              )
+          : () => {
+              selection.clear();
+              delete grid.dataset.pointed;
+              roving.focus(goal);
+            };
     if (!does) return;
     does();
     event.preventDefault();
@@ -175,13 +219,22 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
   /** A click without a pointer, as assistive tools send them; a mouse click is a gesture of no length. */
   function clickWithoutPointer(event) {
     const here = cellOf(event.target);
-    if (here && !swallowClick) ({ paint: toggle, select: (cell) => selection.between(cell, cell), lock: (cell) => lockRegion(edits, document(), spanning(cell, cell), !isLocked(document(), cell)) })[store.state.tool](here);
+    if (here && !swallowClick)
+      ({
+        paint: toggle,
+        select: (cell) => selection.between(cell, cell),
+        lock: (cell) => lockRegion(edits, document(), spanning(cell, cell), !isLocked(document(), cell)),
+      })[store.state.tool](here);
     swallowClick = false;
   }
 
   /** A double click comes from the grid, which holds the pointer; the cell under it has the focus by then. */
   function takeSwing(event) {
-    if (!event.target.closest("[role=rowheader]") && (store.state.tool === "select" || event.ctrlKey || event.metaKey)) selection.swing(roving.place());
+    if (
+      !event.target.closest("[role=rowheader]")
+      && (store.state.tool === "select" || event.ctrlKey || event.metaKey)
+    )
+      selection.swing(roving.place());
   }
 
   function explain(event) {
@@ -197,15 +250,25 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
   grid.addEventListener("pointermove", move);
   grid.addEventListener("pointerup", () => {
     end(true);
-    setTimeout(() => { swallowClick = false; });
+    setTimeout(() => {
+      swallowClick = false;
+    });
   });
   grid.addEventListener("pointercancel", () => end(false));
   grid.addEventListener("pointerover", explain);
   grid.addEventListener("click", clickWithoutPointer);
   grid.addEventListener("dblclick", takeSwing);
   grid.addEventListener("keydown", press);
-  window.addEventListener("keydown", (event) => { if (event.key === "Tab") delete grid.dataset.pointed; }, true);
-  grid.addEventListener("focusin", (event) => { if (cellOf(event.target)) roving.move(cellOf(event.target)); });
+  window.addEventListener(
+    "keydown",
+    (event) => {
+      if (event.key === "Tab") delete grid.dataset.pointed;
+    },
+    true,
+  );
+  grid.addEventListener("focusin", (event) => {
+    if (cellOf(event.target)) roving.move(cellOf(event.target));
+  });
 
   return {
     cancelGesture: () => end(false),

@@ -7,19 +7,41 @@ import { buildBars } from "./swing_bars.js";
 /** With more columns in the window the cells stand without gaps. */
 export const DENSE = 140;
 
-const name = (foot, sample, swing, locked) => `foot ${foot + 1}, sample ${sample + 1}: ${swing ? "swing" : "stance"}${locked ? ", locked" : ""}`;
+const name = (foot, sample, swing, locked) =>
+  `foot ${foot + 1}, sample ${sample + 1}: ${swing ? "swing" : "stance"}${locked ? ", locked" : ""}`;
 
-const buildCell = (_, sample) => h("div", { role: "gridcell", class: "cell", tabindex: "-1", "aria-colindex": sample + 1, "aria-selected": "false" });
+const buildCell = (_, sample) =>
+  h("div", {
+    role: "gridcell",
+    class: "cell",
+    tabindex: "-1",
+    "aria-colindex": sample + 1,
+    "aria-selected": "false",
+  });
 
 /** An empty row of a foot. */
 export function buildRow(foot) {
   const role = h("span", { class: "role" });
   const strip = h("div", { class: "cells", role: "presentation" });
-  const label = h("div", { class: "row-label", role: "rowheader", title: "Click to select this row. Click with Shift to select several rows" },
-    h("span", { class: "foot-dot" }), h("span", { text: `Foot ${foot + 1}` }), role);
+  const label = h(
+    "div",
+    {
+      class: "row-label",
+      role: "rowheader",
+      title: "Click to select this row. Click with Shift to select several rows",
+    },
+    h("span", { class: "foot-dot" }),
+    h("span", { text: `Foot ${foot + 1}` }),
+    role,
+  );
   const bars = buildBars();
-  const row = h("div", { class: "timeline-row", role: "row", "aria-label": `Foot ${foot + 1}`, data: { foot: foot + 1 } },
-    label, h("div", { class: "cells-window", role: "presentation" }, strip, bars.layer), bars.duty);
+  const row = h(
+    "div",
+    { class: "timeline-row", role: "row", "aria-label": `Foot ${foot + 1}`, data: { foot: foot + 1 } },
+    label,
+    h("div", { class: "cells-window", role: "presentation" }, strip, bars.layer),
+    bars.duty,
+  );
   return { row, role, strip, bars, cells: [], words: [], drawn: [], seen: [] };
 }
 
@@ -33,7 +55,8 @@ export function fitRow(line, samples) {
   line.seen = [];
 }
 
-const same = (one, other) => one.length === other.length && one.every((value, index) => Object.is(value, other[index]));
+const same = (one, other) =>
+  one.length === other.length && one.every((value, index) => Object.is(value, other[index]));
 
 function drawCell(cell, key) {
   const { foot, sample, part, fixed, finding, lack, preview, wraps } = key;
@@ -57,8 +80,8 @@ function wrapsOf(steps, sample, periodic) {
 
 /**
  * Draws a foot's row.
- * @param {object} line of `buildRow`
- * @param {object} what `foot`, `steps` and `locked` (rows of 1 and 0), `before` (the same two before a preview, or null),
+ * @param {Record<string, any>} line of `buildRow`
+ * @param {Record<string, any>} what `foot`, `steps` and `locked` (rows of 1 and 0), `before` (the same two before a preview, or null),
  *   `findings` and `lacks` by "foot,sample", `periodic`, `role`
  */
 export function drawRow(line, { foot, steps, locked, before, findings, lacks, periodic, role }) {
@@ -70,7 +93,10 @@ export function drawRow(line, { foot, steps, locked, before, findings, lacks, pe
     const fixed = locked?.[sample] === "1";
     const [finding, lack] = [findings.get(`${foot},${sample}`), lacks.get(`${foot},${sample}`)];
     const part = partOf(steps, sample);
-    const preview = before !== null && (before.steps[sample] !== steps[sample] || (before.locked?.[sample] ?? "0") !== (locked?.[sample] ?? "0"));
+    const preview =
+      before !== null
+      && (before.steps[sample] !== steps[sample]
+        || (before.locked?.[sample] ?? "0") !== (locked?.[sample] ?? "0"));
     const wraps = wrapsOf(steps, sample, periodic);
     const key = `${part}${fixed}${preview}${wraps}${finding?.sentence ?? ""}${lack ? lack.tone + lack.sentence : ""}`;
     if (line.drawn[sample] === key) continue;

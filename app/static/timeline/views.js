@@ -47,9 +47,16 @@ export function mountViews(store) {
     });
   });
   openView(current);
-  store.watch((state) => [shownDocument(state)?.sequence], (state) => {
-    const isSequence = Boolean(shownDocument(state)?.sequence);
-    setAllowed(byId("view-segments"), isSequence ? NO_TABLE : null, "Opens the segment table, a spreadsheet for gaits made by hand");
-    if (isSequence && current === "segments") openView("cells");
-  });
+  store.watch(
+    (state) => [shownDocument(state)?.sequence],
+    (state) => {
+      const isSequence = Boolean(shownDocument(state)?.sequence);
+      setAllowed(
+        byId("view-segments"),
+        isSequence ? NO_TABLE : null,
+        "Opens the segment table, a spreadsheet for gaits made by hand",
+      );
+      if (isSequence && current === "segments") openView("cells");
+    },
+  );
 }

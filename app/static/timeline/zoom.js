@@ -11,7 +11,7 @@ import { byId, h, setAttribute } from "../lib/dom.js";
 const STEP = 1.5;
 const WHEEL = 0.0025;
 
-/** @param {object} store */
+/** @param {import("../state/store.js").Store} store */
 export function createZoom(store) {
   const axis = () => axisOf(store.state);
   const show = (first, shown) => {
@@ -53,12 +53,18 @@ function mountWheel(chart, zoom, store) {
     const box = byId("ruler").getBoundingClientRect();
     return clamp((x - box.left) / box.width, 0, 1);
   };
-  chart.addEventListener("wheel", (event) => {
-    if (event.ctrlKey || event.metaKey) zoom.by(Math.exp(-event.deltaY * WHEEL * (event.deltaMode ? 20 : 1)), fractionOf(event.clientX));
-    else if (store.state.zoom) zoom.pan(((event.deltaX || event.deltaY) * axisOf(store.state).shown) / 1000);
-    else return;
-    event.preventDefault();
-  }, { passive: false });
+  chart.addEventListener(
+    "wheel",
+    (event) => {
+      if (event.ctrlKey || event.metaKey)
+        zoom.by(Math.exp(-event.deltaY * WHEEL * (event.deltaMode ? 20 : 1)), fractionOf(event.clientX));
+      else if (store.state.zoom)
+        zoom.pan(((event.deltaX || event.deltaY) * axisOf(store.state).shown) / 1000);
+      else return;
+      event.preventDefault();
+    },
+    { passive: false },
+  );
   return fractionOf;
 }
 
@@ -69,29 +75,52 @@ function mountPinch(chart, zoom, { fractionOf, shownColumns, began }) {
     const [one, other] = [...fingers.values()];
     return { distance: Math.max(20, Math.abs(one - other)), middle: (one + other) / 2 };
   };
-  chart.addEventListener("pointerdown", (event) => {
-    if (event.pointerType !== "touch") return;
-    fingers.set(event.pointerId, event.clientX);
-    if (fingers.size === 2) began();
-    if (fingers.size > 1) event.stopPropagation();
-  }, true);
-  chart.addEventListener("pointermove", (event) => {
-    if (!fingers.has(event.pointerId)) return;
-    const before = fingers.size === 2 ? spread() : null;
-    fingers.set(event.pointerId, event.clientX);
-    if (!before) return;
-    const { distance, middle } = spread();
-    zoom.pan((fractionOf(before.middle) - fractionOf(middle)) * shownColumns());
-    zoom.by(distance / before.distance, fractionOf(middle));
-    event.stopPropagation();
-  }, true);
-  for (const type of ["pointerup", "pointercancel"]) chart.addEventListener(type, (event) => fingers.delete(event.pointerId), true);
+  chart.addEventListener(
+    "pointerdown",
+    (event) => {
+      if (event.pointerType !== "touch") return;
+      fingers.set(event.pointerId, event.clientX);
+      if (fingers.size === 2) began();
+      if (fingers.size > 1) event.stopPropagation();
+    },
+    true,
+  );
+  chart.addEventListener(
+    "pointermove",
+    (event) => {
+      if (!fingers.has(event.pointerId)) return;
+      const before = fingers.size === 2 ? spread() : null;
+      fingers.set(event.pointerId, event.clientX);
+      if (!before) return;
+      const { distance, middle } = spread();
+      zoom.pan((fractionOf(before.middle) - fractionOf(middle)) * shownColumns());
+      zoom.by(distance / before.distance, fractionOf(middle));
+      event.stopPropagation();
+    },
+    true,
+  );
+  for (const type of ["pointerup", "pointercancel"])
+    chart.addEventListener(type, (event) => fingers.delete(event.pointerId), true);
 }
 
 /** A bar under the plots that shows which part of the timeline is in the window; it can be dragged. */
 function mountBar(chart, zoom, store) {
   const thumb = h("div", { class: "zoom-thumb" });
-  const bar = h("div", { class: "zoom-bar", role: "scrollbar", "aria-label": "Shown part of the timeline", "aria-controls": "timeline", "aria-orientation": "horizontal", "aria-valuemin": 0, title: "Shown part of the timeline. Drag the bar to see another part, or press F to see the whole timeline", hidden: true }, thumb);
+  const bar = h(
+    "div",
+    {
+      class: "zoom-bar",
+      role: "scrollbar",
+      "aria-label": "Shown part of the timeline",
+      "aria-controls": "timeline",
+      "aria-orientation": "horizontal",
+      "aria-valuemin": 0,
+      title:
+        "Shown part of the timeline. Drag the bar to see another part, or press F to see the whole timeline",
+      hidden: true,
+    },
+    thumb,
+  );
   chart.append(bar);
   let held = null;
   thumb.addEventListener("pointerdown", (event) => {
@@ -101,22 +130,28 @@ function mountBar(chart, zoom, store) {
   thumb.addEventListener("pointermove", (event) => {
     if (held) zoom.to(held.first + ((event.clientX - held.x) / held.width) * axisOf(store.state).columns);
   });
-  for (const type of ["pointerup", "pointercancel"]) thumb.addEventListener(type, () => { held = null; });
-  store.watch((state) => [state.zoom, axisOf(state).columns], (state) => {
-    const { first, shown, columns } = axisOf(state);
-    bar.hidden = !state.zoom;
-    setAttribute(bar, "aria-valuemax", Math.round(columns - shown));
-    setAttribute(bar, "aria-valuenow", Math.round(first));
-    thumb.style.left = `${(100 * first) / columns}%`;
-    thumb.style.width = `${(100 * shown) / columns}%`;
-  });
+  for (const type of ["pointerup", "pointercancel"])
+    thumb.addEventListener(type, () => {
+      held = null;
+    });
+  store.watch(
+    (state) => [state.zoom, axisOf(state).columns],
+    (state) => {
+      const { first, shown, columns } = axisOf(state);
+      bar.hidden = !state.zoom;
+      setAttribute(bar, "aria-valuemax", Math.round(columns - shown));
+      setAttribute(bar, "aria-valuenow", Math.round(first));
+      thumb.style.left = `${(100 * first) / columns}%`;
+      thumb.style.width = `${(100 * shown) / columns}%`;
+    },
+  );
 }
 
 /**
  * Wires wheel, pinch and the bar, and keeps the playhead in the window.
- * @param {object} store
- * @param {Playback} playback
- * @param {object} zoom of `createZoom`
+ * @param {import("../state/store.js").Store} store
+ * @param {import("../preview/playback.js").Playback} playback
+ * @param {Record<string, any>} zoom of `createZoom`
  * @param {() => void} endGesture
  */
 export function mountZoom(store, playback, zoom, endGesture) {

@@ -17,7 +17,12 @@ const kindsOf = ({ has_plan: hasPlan }) => ["mean", "trial", ...(hasPlan ? ["pla
 /** Rectangles between the least and the greatest place of each moment, as one shape. */
 function cover({ low, high }, toX, toY) {
   const boxes = low.x.map((_, at) => {
-    const [left, right, top, bottom] = [toX(low.x[at]) - 0.5, toX(high.x[at]) + 0.5, toY(high.y[at]) - 0.5, toY(low.y[at]) + 0.5];
+    const [left, right, top, bottom] = [
+      toX(low.x[at]) - 0.5,
+      toX(high.x[at]) + 0.5,
+      toY(high.y[at]) - 0.5,
+      toY(low.y[at]) + 0.5,
+    ];
     return `M${left.toFixed(1)} ${top.toFixed(1)}H${right.toFixed(1)}V${bottom.toFixed(1)}H${left.toFixed(1)}Z`;
   });
   return boxes.join("");
@@ -26,17 +31,37 @@ function cover({ low, high }, toX, toY) {
 /** The feet from above, and how far the trials lie apart as a pale area. */
 function bandFromAbove(band) {
   const places = band.feet.map(({ place }) => place);
-  const { toX, toY, size, step, lines } = ground(places.flatMap(({ low, high, plan }) => [low, high, ...(plan ? [plan] : [])]));
-  const line = (kind, foot, { x, y }) => svg("polyline", { class: `way-${kind}`, "data-foot": foot + 1, points: points(x.map(toX), y.map(toY)) });
+  const { toX, toY, size, step, lines } = ground(
+    places.flatMap(({ low, high, plan }) => [low, high, ...(plan ? [plan] : [])]),
+  );
+  const line = (kind, foot, { x, y }) =>
+    svg("polyline", { class: `way-${kind}`, "data-foot": foot + 1, points: points(x.map(toX), y.map(toY)) });
   const drawn = places.flatMap((place, foot) => [
     svg("path", { class: "spread", "data-foot": foot + 1, d: cover(place, toX, toY) }),
-    ...(place.plan ? [line("plan", foot, place.plan)] : []), ...place.trials.map((way) => line("trial", foot, way)), line("mean", foot, place.mean),
+    ...(place.plan ? [line("plan", foot, place.plan)] : []),
+    ...place.trials.map((way) => line("trial", foot, way)),
+    line("mean", foot, place.mean),
   ]);
-  const text = band.feet.map(({ end_spread_cm: spread }, foot) => `foot ${foot + 1} ends ± ${fixed(spread, 2)} cm`).join("; ");
-  return h("figure", { class: "trial-plot" },
-    svg("svg", { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Trials from above: ${text}` }, ...lines, ...drawn),
-    h("figcaption", { class: "quiet" }, `Feet seen from above, in the robot's frame. Grid: ${step} cm. `
-      + "The pale area covers all trials in this plot.", legend(kindsOf(band), TEXTS)));
+  const text = band.feet
+    .map(({ end_spread_cm: spread }, foot) => `foot ${foot + 1} ends ± ${fixed(spread, 2)} cm`)
+    .join("; ");
+  return h(
+    "figure",
+    { class: "trial-plot" },
+    svg(
+      "svg",
+      { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Trials from above: ${text}` },
+      ...lines,
+      ...drawn,
+    ),
+    h(
+      "figcaption",
+      { class: "quiet" },
+      `Feet seen from above, in the robot's frame. Grid: ${step} cm. `
+        + "The pale area covers all trials in this plot.",
+      legend(kindsOf(band), TEXTS),
+    ),
+  );
 }
 
 /** The displacement of the feet over the iterations. */
@@ -45,38 +70,84 @@ function bandOverIterations({ feet, iterations, ...band }) {
   const all = ways.flatMap(({ low, high, plan }) => [...low, ...high, ...(plan ?? [])]);
   const range = all.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0.1]);
   const count = iterations.at(-1);
-  const { drawing, toX, toY } = displacementFrame(range, count, { begin: "cm over iterations", end: String(count) });
+  const { drawing, toX, toY } = displacementFrame(range, count, {
+    begin: "cm over iterations",
+    end: String(count),
+  });
   const xs = iterations.map(toX);
-  const line = (kind, foot, values) => svg("polyline", { class: `way-${kind}`, "data-foot": foot + 1, points: points(xs, values.map(toY)) });
-  drawing.append(...ways.flatMap((way, foot) => [
-    svg("polygon", { class: "spread", "data-foot": foot + 1, points: `${points(xs, way.low.map(toY))} ${points([...xs].reverse(), way.high.map(toY).reverse())}` }),
-    ...(way.plan ? [line("plan", foot, way.plan)] : []), ...way.trials.map((one) => line("trial", foot, one)), line("mean", foot, way.mean),
-  ]));
-  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" },
-    `Distance of each foot along the ${band.has_plan ? "planned" : "mean"} direction`,
-    legend(kindsOf(band), TEXTS)));
+  const line = (kind, foot, values) =>
+    svg("polyline", { class: `way-${kind}`, "data-foot": foot + 1, points: points(xs, values.map(toY)) });
+  drawing.append(
+    ...ways.flatMap((way, foot) => [
+      svg("polygon", {
+        class: "spread",
+        "data-foot": foot + 1,
+        points: `${points(xs, way.low.map(toY))} ${points([...xs].reverse(), way.high.map(toY).reverse())}`,
+      }),
+      ...(way.plan ? [line("plan", foot, way.plan)] : []),
+      ...way.trials.map((one) => line("trial", foot, one)),
+      line("mean", foot, way.mean),
+    ]),
+  );
+  return h(
+    "figure",
+    { class: "trial-plot" },
+    drawing,
+    h(
+      "figcaption",
+      { class: "quiet" },
+      `Distance of each foot along the ${band.has_plan ? "planned" : "mean"} direction`,
+      legend(kindsOf(band), TEXTS),
+    ),
+  );
 }
 
-const HELP = "Mean: distance of the foot, averaged over the trials. Spread: distance of the end points from their mean "
+const HELP =
+  "Mean: distance of the foot, averaged over the trials. Spread: distance of the end points from their mean "
   + "(root mean square). Planned: distance of the foot in the plan";
 
-const spreadTable = ({ feet }) => figureTable("Final distance of each foot, cm", HELP, ["", "mean", "spread", "planned"],
-  feet.map(({ way, end_spread_cm: spread }, foot) => [footName(foot), ...[way.mean.at(-1), spread, way.plan?.at(-1) ?? null].map((value) => fixed(value, 2))]));
+const spreadTable = ({ feet }) =>
+  figureTable(
+    "Final distance of each foot, cm",
+    HELP,
+    ["", "mean", "spread", "planned"],
+    feet.map(({ way, end_spread_cm: spread }, foot) => [
+      footName(foot),
+      ...[way.mean.at(-1), spread, way.plan?.at(-1) ?? null].map((value) => fixed(value, 2)),
+    ]),
+  );
 
 /** A check box a trial, which includes it, and a button that opens the trial. */
 function choice(trials, open, changed) {
   const boxes = trials.map(({ id, name }, index) => {
     const box = h("input", { type: "checkbox", "aria-label": name, value: id, on: { change: changed } });
     box.checked = index < MOST_TOGETHER;
-    return { box, row: h("li", {}, h("label", {}, box), h("button", { class: "link", text: name, title: "Opens this trial and compares it with its plan", on: { click: () => open(id) } })) };
+    return {
+      box,
+      row: h(
+        "li",
+        {},
+        h("label", {}, box),
+        h("button", {
+          class: "link",
+          text: name,
+          title: "Opens this trial and compares it with its plan",
+          on: { click: () => open(id) },
+        }),
+      ),
+    };
   });
-  const element = h("ul", { class: "band-trials", role: "list", "aria-label": "Trials in this plot" }, ...boxes.map(({ row }) => row));
+  const element = h(
+    "ul",
+    { class: "band-trials", role: "list", "aria-label": "Trials in this plot" },
+    ...boxes.map(({ row }) => row),
+  );
   return { element, chosen: () => boxes.filter(({ box }) => box.checked).map(({ box }) => box.value) };
 }
 
 /**
  * Builds the band's page in the panel.
- * @param {object} group a row of the gaits compared, with its trials' `lines`, the newest first
+ * @param {Record<string, any>} group a row of the gaits compared, with its trials' `lines`, the newest first
  * @param {{all: () => void, open: (id: string) => void, tracks: Function}} acts
  * @returns {Promise<{element: HTMLElement, leave: () => void}>}
  */
@@ -91,15 +162,34 @@ export async function trialBand(group, { all, open, tracks }) {
     if (ids.join() !== chosen().join()) return;
     part?.leave();
     part = band && tracks(ids);
-    plots.replaceChildren(...(band ? [bandFromAbove(band), bandOverIterations(band), spreadTable(band)] : [h("p", { class: "teach", text: "Choose at least one trial." })]));
+    plots.replaceChildren(
+      ...(band
+        ? [bandFromAbove(band), bandOverIterations(band), spreadTable(band)]
+        : [h("p", { class: "teach", text: "Choose at least one trial." })]),
+    );
     scene.replaceChildren(...(part ? [part.element] : []));
     await part?.refresh();
   });
 
   const { element: list, chosen } = choice(group.lines, open, draw);
-  const element = h("div", { class: "run-detail" },
+  const element = h(
+    "div",
+    { class: "run-detail" },
     h("button", { class: "link", text: "All trials", on: { click: all } }),
-    h("div", { class: "run-line run-title" }, h("b", { text: `${group.gait_name}, ${fixed(group.step_cm, 1)} cm` })), list, scene, plots);
+    h(
+      "div",
+      { class: "run-line run-title" },
+      h("b", { text: `${group.gait_name}, ${fixed(group.step_cm, 1)} cm` }),
+    ),
+    list,
+    scene,
+    plots,
+  );
   await draw();
-  return { element, leave() { part?.leave(); } };
+  return {
+    element,
+    leave() {
+      part?.leave();
+    },
+  };
 }

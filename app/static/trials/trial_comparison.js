@@ -18,20 +18,42 @@ export const comparisonApi = {
   band: (ids) => request("GET", `/api/trials/band?${new URLSearchParams(ids.map((id) => ["trial", id]))}`),
 };
 
-const HELP = "Time, and mean movement of the feet, from the first to the last frame. "
+const HELP =
+  "Time, and mean movement of the feet, from the first to the last frame. "
   + "Angle: direction of the movement, measured from the x axis of the platform where the robot walks. "
   + "Last column: mean distance of the feet from the tracked feet at the same phase of each iteration";
 
 function figures({ rows }) {
-  const cells = (row) => [fixed(row.seconds, 1), fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];
-  const apart = ({ gaps_mm: gaps }) => (gaps ? gaps.map((gap, foot) => `foot ${foot + 1}: ${fixed(gap, 1)} mm`).join(", ") : null);
-  return captionedTable({ class: "run-table trial-comparison", title: HELP }, "Planned, simulated, tracked, first to last", ["", "s", "cm", "angle °", "error %", "feet mm"],
-    rows.map((row) => h("tr", { title: apart(row) }, h("th", { scope: "row" }, legend([row.source])), ...cells(row).map((text) => h("td", { text })))));
+  const cells = (row) => [
+    fixed(row.seconds, 1),
+    fixed(row.net_distance, 2),
+    fixed(row.net_angle_deg, 1),
+    fixed(row.net_error_percent, 0),
+    fixed(row.gap_mm, 1),
+  ];
+  const apart = ({ gaps_mm: gaps }) =>
+    gaps ? gaps.map((gap, foot) => `foot ${foot + 1}: ${fixed(gap, 1)} mm`).join(", ") : null;
+  return captionedTable(
+    { class: "run-table trial-comparison", title: HELP },
+    "Planned, simulated, tracked, first to last",
+    ["", "s", "cm", "angle °", "error %", "feet mm"],
+    rows.map((row) =>
+      h(
+        "tr",
+        { title: apart(row) },
+        h("th", { scope: "row" }, legend([row.source])),
+        ...cells(row).map((text) => h("td", { text })),
+      ),
+    ),
+  );
 }
 
 const TEXTS = {
   absent: () => "The simulation of the sent waypoints is being requested.",
-  running: ({ share }) => (share > 0 ? `The simulation is running: ${fixed(share * 100, 0)} %.` : "The simulation is waiting or starting."),
+  running: ({ share }) =>
+    share > 0
+      ? `The simulation is running: ${fixed(share * 100, 0)} %.`
+      : "The simulation is waiting or starting.",
   failed: ({ sentence }) => `The simulation of this trial failed. ${sentence} `,
   none: ({ sentence }) => sentence,
   done: ({ remark }) => remark ?? "",
@@ -40,7 +62,7 @@ const TEXTS = {
 /**
  * Builds the table, which requests the simulation and follows it until it is done.
  * @param {string} id of the trial
- * @param {(simulated: object|null) => void} shown gets the simulated paths once they are there
+ * @param {(simulated: Record<string, any>|null) => void} shown gets the simulated paths once they are there
  * @returns {{element: HTMLElement, refresh: () => Promise<void>, leave: () => void}}
  */
 export function comparisonPart(id, shown) {
@@ -75,5 +97,12 @@ export function comparisonPart(id, shown) {
   });
 
   again.addEventListener("click", follow);
-  return { element, refresh, leave() { isClosed = true; clearTimeout(timer); } };
+  return {
+    element,
+    refresh,
+    leave() {
+      isClosed = true;
+      clearTimeout(timer);
+    },
+  };
 }

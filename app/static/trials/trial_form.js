@@ -12,7 +12,8 @@ function field(name, help, attributes) {
   return { input, label: h("label", {}, h("span", { text: name }), input) };
 }
 
-const number = (name, help, value, attributes = {}) => field(name, help, { type: "number", step: "any", min: "0", value, required: true, ...attributes });
+const number = (name, help, value, attributes = {}) =>
+  field(name, help, { type: "number", step: "any", min: "0", value, required: true, ...attributes });
 
 /** How far the shown gait's body goes as planned, cm. */
 function wantedCm(view) {
@@ -24,22 +25,36 @@ function wantedCm(view) {
 
 /**
  * The fields of every trial: the wanted distance, the iterations, and the plan that it is laid over.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @param {{expected_cm?: number, iterations?: number, gait?: string, run?: string}} [kept] what was written before
- * @returns {{labels: HTMLElement[], values: () => object}}
+ * @returns {{labels: HTMLElement[], values: () => Record<string, any>}}
  */
 export function walkFields(store, kept = {}) {
   const { view } = store.state;
-  const expected = number("Wanted distance, cm", "Distance that the robot should walk, over all iterations together", kept.expected_cm ?? wantedCm(view) ?? "");
-  const iterations = number("Iterations", "Number of iterations of the gait in each track",
-    kept.iterations ?? view?.document?.iterations ?? 3, { step: "1", min: "1", max: "50" });
+  const expected = number(
+    "Wanted distance, cm",
+    "Distance that the robot should walk, over all iterations together",
+    kept.expected_cm ?? wantedCm(view) ?? "",
+  );
+  const iterations = number(
+    "Iterations",
+    "Number of iterations of the gait in each track",
+    kept.iterations ?? view?.document?.iterations ?? 3,
+    { step: "1", min: "1", max: "50" },
+  );
   let isTyped = expected.input.value === "" || kept.expected_cm !== undefined;
-  expected.input.addEventListener("input", () => { isTyped = true; });
+  expected.input.addEventListener("input", () => {
+    isTyped = true;
+  });
   iterations.input.addEventListener("input", () => {
     const step = wantedCm(view) / (view?.document?.iterations || 1);
-    if (!isTyped && iterations.input.valueAsNumber > 0) expected.input.value = Number((step * iterations.input.valueAsNumber).toFixed(2));
+    if (!isTyped && iterations.input.valueAsNumber > 0)
+      expected.input.value = Number((step * iterations.input.valueAsNumber).toFixed(2));
   });
-  const over = h("select", { "aria-label": "Compare with plan", title: "The tracks are compared with this plan. The plan is saved with the trial" });
+  const over = h("select", {
+    "aria-label": "Compare with plan",
+    title: "The tracks are compared with this plan. The plan is saved with the trial",
+  });
   const option = (value, text) => h("option", { value, text });
   let [runs, touched] = [[], false];
 
@@ -47,8 +62,13 @@ export function walkFields(store, kept = {}) {
   function fill(wanted) {
     const now = store.state.view;
     const gaits = [...new Map([view, now].filter(Boolean).map((one) => [one.id, one.document.name]))];
-    over.replaceChildren(...gaits.map(([id, name]) => option(`gait:${id}`, `${name}, as planned now`)), option("", "no plan"),
-      ...runs.map((run) => option(`run:${run.id}`, `run of ${run.gait_name}, ${clockTime(run.started)}, ${run.by}`)));
+    over.replaceChildren(
+      ...gaits.map(([id, name]) => option(`gait:${id}`, `${name}, as planned now`)),
+      option("", "no plan"),
+      ...runs.map((run) =>
+        option(`run:${run.id}`, `run of ${run.gait_name}, ${clockTime(run.started)}, ${run.by}`),
+      ),
+    );
     if ([...over.options].some(({ value }) => value === wanted)) over.value = wanted;
   }
 
@@ -58,50 +78,103 @@ export function walkFields(store, kept = {}) {
     ({ runs } = await trialApi.runs());
     fill(wanted && !touched ? wanted : over.value);
   })();
-  over.addEventListener("change", () => { touched = true; });
+  over.addEventListener("change", () => {
+    touched = true;
+  });
   for (const kind of ["pointerdown", "focus"]) over.addEventListener(kind, () => fill(over.value));
   return {
-    labels: [expected.label, iterations.label, h("label", {}, h("span", { text: "Compare with plan" }), over)],
+    labels: [
+      expected.label,
+      iterations.label,
+      h("label", {}, h("span", { text: "Compare with plan" }), over),
+    ],
     values() {
       const [kind, id] = over.value.split(/:(.*)/);
-      return { expected_cm: expected.input.valueAsNumber, iterations: iterations.input.valueAsNumber, ...(id ? { [kind]: id } : {}) };
+      return {
+        expected_cm: expected.input.valueAsNumber,
+        iterations: iterations.input.valueAsNumber,
+        ...(id ? { [kind]: id } : {}),
+      };
     },
   };
 }
 
 /**
  * Builds the form.
- * @param {{store: object, all: () => void, done: (added: object[]) => void}} page
+ * @param {{store: Record<string, any>, all: () => void, done: (added: Record<string, any>[]) => void}} page
  */
 export function trialForm({ store, all, done }) {
-  const files = h("input", { type: "file", multiple: true, accept: ".csv,text/csv", "aria-label": "Track files", required: true });
-  const rate = number("Frames a second", "Frame rate of the recording. The files do not contain the frame "
-    + "rate", FRAME_RATE);
-  const perCm = number("Pixels a centimetre", "Leave this field empty if the tracks are in centimetres", "", { required: false });
-  const [x, y] = [number("Centre x, px", "Horizontal pixel position of the platform's "
-    + "centre", "", { required: false }), number("Centre y, px", "Vertical pixel position of the platform's "
-    + "centre, counted from the top", "", { required: false })];
+  const files = h("input", {
+    type: "file",
+    multiple: true,
+    accept: ".csv,text/csv",
+    "aria-label": "Track files",
+    required: true,
+  });
+  const rate = number(
+    "Frames a second",
+    "Frame rate of the recording. The files do not contain the frame " + "rate",
+    FRAME_RATE,
+  );
+  const perCm = number("Pixels a centimetre", "Leave this field empty if the tracks are in centimetres", "", {
+    required: false,
+  });
+  const [x, y] = [
+    number("Centre x, px", "Horizontal pixel position of the platform's " + "centre", "", {
+      required: false,
+    }),
+    number(
+      "Centre y, px",
+      "Vertical pixel position of the platform's " + "centre, counted from the top",
+      "",
+      { required: false },
+    ),
+  ];
   const walk = walkFields(store);
 
   const keep = attempt(async (event) => {
     event.preventDefault();
-    const pixels = perCm.input.value ? { per_cm: perCm.input.valueAsNumber, origin: [x.input.valueAsNumber || 0, y.input.valueAsNumber || 0] } : null;
+    const pixels = perCm.input.value
+      ? {
+          per_cm: perCm.input.valueAsNumber,
+          origin: [x.input.valueAsNumber || 0, y.input.valueAsNumber || 0],
+        }
+      : null;
     const added = [];
     for (const file of files.files) {
-      added.push(await trialApi.add({ name: file.name.replace(/\.csv$/i, ""), csv: await file.text(), frame_rate: rate.input.valueAsNumber, pixels, ...walk.values() }));
+      added.push(
+        await trialApi.add({
+          name: file.name.replace(/\.csv$/i, ""),
+          csv: await file.text(),
+          frame_rate: rate.input.valueAsNumber,
+          pixels,
+          ...walk.values(),
+        }),
+      );
     }
     if (added.length > 1) toast(`${added.length} trials were added.`);
     done(added);
   });
 
   const [expected, iterations, over] = walk.labels;
-  return h("form", { class: "trial-form", on: { submit: keep } },
+  return h(
+    "form",
+    { class: "trial-form", on: { submit: keep } },
     h("button", { type: "button", class: "link", text: "All trials", on: { click: all } }),
-    h("p", { class: "quiet", text: "Choose CSV files with foot tracks. "
-      + "The columns are X_D1, Y_D1, X_D2, …, with one row for each frame. "
-      + "If a foot was not seen in a frame, its cells are empty (tracks in centimetres) or 0 (tracks in "
-      + "pixels)." }),
-    h("label", {}, h("span", { text: "Files" }), files), expected, iterations, rate.label, over,
+    h("p", {
+      class: "quiet",
+      text:
+        "Choose CSV files with foot tracks. "
+        + "The columns are X_D1, Y_D1, X_D2, …, with one row for each frame. "
+        + "If a foot was not seen in a frame, its cells are empty (tracks in centimetres) or 0 (tracks in "
+        + "pixels).",
+    }),
+    h("label", {}, h("span", { text: "Files" }), files),
+    expected,
+    iterations,
+    rate.label,
+    over,
     h("details", {}, h("summary", { text: "The files are in pixels" }), perCm.label, x.label, y.label),
-    h("button", { class: "primary", text: "Add trials" }));
+    h("button", { class: "primary", text: "Add trials" }),
+  );
 }

@@ -6,10 +6,10 @@ import { trialApi } from "../api/trials.js";
 
 /**
  * Follows a trial.
- * @param {object} store
- * @param {object} first as the server sent it
- * @param {(trial: object) => void} onChange gets each later state
- * @returns {{change: (changes: object, done?: string) => Promise<boolean>, leave: () => void}} `change` resolves to whether it was kept
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} first as the server sent it
+ * @param {(trial: Record<string, any>) => void} onChange gets each later state
+ * @returns {{change: (changes: Record<string, any>, done?: string) => Promise<boolean>, leave: () => void}} `change` resolves to whether it was kept
  */
 export function followTrial(store, first, onChange) {
   const { id } = first;
@@ -24,7 +24,9 @@ export function followTrial(store, first, onChange) {
   async function refused(error) {
     if (error.status !== CONFLICT) throw error;
     take(await trialApi.read(id));
-    const words = now.deleted ? error.message : `Somebody changed the trial “${now.name}” on another page. You now see the new version. Make your last change again.`;
+    const words = now.deleted
+      ? error.message
+      : `Somebody changed the trial “${now.name}” on another page. You now see the new version. Make your last change again.`;
     toast(words, { tone: "bad", of: "studio" });
   }
 
@@ -48,11 +50,25 @@ export function followTrial(store, first, onChange) {
   async function refresh() {
     const change = store.state.trialChanges[id];
     if (isClosed || (change && change.revision <= now.revision && change.deleted === now.deleted)) return;
-    take(await trialApi.read(id).catch((error) => { report(error); return now; }));
+    take(
+      await trialApi.read(id).catch((error) => {
+        report(error);
+        return now;
+      }),
+    );
   }
 
-  const forget = store.watch(({ trialChanges, connected }) => [trialChanges[id], connected], ({ trialChanges, connected }) => {
-    if (connected && trialChanges[id]) enqueue(refresh);
-  });
-  return { change: (changes, done = "") => enqueue(() => send(changes, done)), leave() { isClosed = true; forget(); } };
+  const forget = store.watch(
+    ({ trialChanges, connected }) => [trialChanges[id], connected],
+    ({ trialChanges, connected }) => {
+      if (connected && trialChanges[id]) enqueue(refresh);
+    },
+  );
+  return {
+    change: (changes, done = "") => enqueue(() => send(changes, done)),
+    leave() {
+      isClosed = true;
+      forget();
+    },
+  };
 }

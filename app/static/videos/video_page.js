@@ -12,14 +12,18 @@ import { jobIsOn } from "../shell/job_list.js";
 import { walkFields } from "../trials/trial_form.js";
 import { videoFacts } from "./video_rows.js";
 
-const SETUP_HELP = "A camera setup describes the lens, the position of the platform in the picture and the "
+const SETUP_HELP =
+  "A camera setup describes the lens, the position of the platform in the picture and the "
   + "colours of the feet.";
 
 /** The choice of a setup, with what is missing from it. */
 function setupChoice({ setups, chosen, changed, edit, make }) {
-  const select = h("select", { "aria-label": "Camera setup", title: "Choose the setup of the camera "
-    + "that recorded this video" },
-    ...setups.map(({ id, setup }) => h("option", { value: id, text: setup.name })), setups.length ? null : h("option", { value: "", text: "none yet" }));
+  const select = h(
+    "select",
+    { "aria-label": "Camera setup", title: "Choose the setup of the camera " + "that recorded this video" },
+    ...setups.map(({ id, setup }) => h("option", { value: id, text: setup.name })),
+    setups.length ? null : h("option", { value: "", text: "none yet" }),
+  );
   const state = h("p", { class: "why", role: "status" });
   const change = h("button", { type: "button", class: "link", text: "Change this setup…" });
   const made = h("button", { type: "button", class: "link", text: "New setup…", on: { click: make } });
@@ -33,25 +37,44 @@ function setupChoice({ setups, chosen, changed, edit, make }) {
   select.addEventListener("change", show);
   change.addEventListener("click", () => edit(now()));
   if (setups.some(({ id }) => id === chosen)) select.value = chosen;
-  return { element: h("div", { class: "camera-part" }, h("label", {}, h("span", { text: "Camera setup" }), select), state, h("div", { class: "camera-row" }, change, made)), now, show };
+  return {
+    element: h(
+      "div",
+      { class: "camera-part" },
+      h("label", {}, h("span", { text: "Camera setup" }), select),
+      state,
+      h("div", { class: "camera-row" }, change, made),
+    ),
+    now,
+    show,
+  };
 }
 
 function removeButton(video, back) {
   const remove = attempt(async () => {
     await videoApi.remove(video.id);
     back();
-    const undo = attempt(async () => { await videoApi.restore(video.id); back(); });
+    const undo = attempt(async () => {
+      await videoApi.restore(video.id);
+      back();
+    });
     const deleted = `The video “${video.name}” is deleted, but its trials are kept.`;
     toast(deleted, { action: { label: "Undo", act: undo } });
   });
-  return h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this video", on: { click: remove } });
+  return h("button", {
+    type: "button",
+    class: "link",
+    text: "Delete",
+    "aria-label": "Delete this video",
+    on: { click: remove },
+  });
 }
 
 /**
  * Opens a video in the panel.
- * @param {object} page of the trials' panel: `store`, `show`, `one` opens a trial
- * @param {object} video
- * @param {{back: () => void, chosen?: string, frame?: number, kept?: object}} ways `chosen` is the setup that was chosen before,
+ * @param {Record<string, any>} page of the trials' panel: `store`, `show`, `one` opens a trial
+ * @param {Record<string, any>} video
+ * @param {{back: () => void, chosen?: string, frame?: number, kept?: Record<string, any>}} ways `chosen` is the setup that was chosen before,
  *   `kept` what was written in the form
  */
 export async function openVideo(page, video, { back, chosen = "", frame = 0, kept = {} }) {
@@ -59,14 +82,26 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
   const { setups } = await setupApi.list();
   if (isOld()) return;
   const stage = openStage(videoSource(video), frame);
-  const name = h("input", { "aria-label": "Trial name", required: true, maxlength: "120", value: kept.name ?? video.name.replace(/\.\w+$/, "") });
+  const name = h("input", {
+    "aria-label": "Trial name",
+    required: true,
+    maxlength: "120",
+    value: kept.name ?? video.name.replace(/\.\w+$/, ""),
+  });
   const walk = walkFields(page.store, { ...kept, run: kept.run ?? video.run });
   const track = h("button", { class: "primary", text: "Track the feet" });
   const words = () => ({ name: name.value.trim(), ...walk.values() });
   let tracking = false;
 
-  const again = (setup) => () => openVideo(page, video, { back, chosen: setup, frame: stage.frame, kept: words() });
-  const edit = (answer) => openSetup(page, { answer, source: videoSource(video), frame: stage.frame, back: { text: `Back to ${video.name}`, act: again(answer.id) } });
+  const again = (setup) => () =>
+    openVideo(page, video, { back, chosen: setup, frame: stage.frame, kept: words() });
+  const edit = (answer) =>
+    openSetup(page, {
+      answer,
+      source: videoSource(video),
+      frame: stage.frame,
+      back: { text: `Back to ${video.name}`, act: again(answer.id) },
+    });
   const make = attempt(async () => {
     const older = page.begin();
     const answer = await newSetup();
@@ -84,17 +119,52 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
   const begin = attempt(async () => {
     await videoApi.track(video.id, { setup: choice.now().id, note: "", gait: "", run: "", ...words() });
   });
-  const progress = trackingPart(page.store, video.id, { done: page.one, changed: (isOn) => { tracking = isOn; allow(); } });
-  const form = h("form", { class: "trial-form", on: { submit: (event) => event.preventDefault() } },
+  const progress = trackingPart(page.store, video.id, {
+    done: page.one,
+    changed: (isOn) => {
+      tracking = isOn;
+      allow();
+    },
+  });
+  const form = h(
+    "form",
+    { class: "trial-form", on: { submit: (event) => event.preventDefault() } },
     h("button", { type: "button", class: "link", text: "All videos", on: { click: back } }),
-    h("div", { class: "run-line run-title" }, h("b", { text: video.name })), h("p", { class: "quiet", text: videoFacts(video) }),
+    h("div", { class: "run-line run-title" }, h("b", { text: video.name })),
+    h("p", { class: "quiet", text: videoFacts(video) }),
     video.sentence ? h("p", { class: "why", data: { toneText: "caution" }, text: video.sentence }) : null,
-    ...video.trials.map(({ id, name: of }) => h("button", { type: "button", class: "link", text: video.trials.length > 1 ? `Open its trial “${of}”` : "Open its trial", title: of, on: { click: () => page.one(id) } })),
-    choice.element, h("label", {}, h("span", { text: "Trial name" }), name), ...walk.labels, progress, track,
-    h("div", { class: "run-files" },
-      h("a", { href: `/api/videos/${encodeURIComponent(video.id)}/file`, download: "", text: "Download the file" }),
-      removeButton(video, back)));
-  onPress(track, () => { if (form.reportValidity()) begin(); }, (why) => toast(why, { of: "studio" }));
+    ...video.trials.map(({ id, name: of }) =>
+      h("button", {
+        type: "button",
+        class: "link",
+        text: video.trials.length > 1 ? `Open its trial “${of}”` : "Open its trial",
+        title: of,
+        on: { click: () => page.one(id) },
+      }),
+    ),
+    choice.element,
+    h("label", {}, h("span", { text: "Trial name" }), name),
+    ...walk.labels,
+    progress,
+    track,
+    h(
+      "div",
+      { class: "run-files" },
+      h("a", {
+        href: `/api/videos/${encodeURIComponent(video.id)}/file`,
+        download: "",
+        text: "Download the file",
+      }),
+      removeButton(video, back),
+    ),
+  );
+  onPress(
+    track,
+    () => {
+      if (form.reportValidity()) begin();
+    },
+    (why) => toast(why, { of: "studio" }),
+  );
   page.show(form, () => stage.close());
   choice.show();
 }
@@ -104,7 +174,7 @@ const jobOf = ({ jobs }, video) => jobs.find((job) => job.kind === "track" && jo
 
 /**
  * Builds the progress of a video's tracking; hidden while there was none.
- * @param {object} store
+ * @param {import("../state/store.js").Store} store
  * @param {string} video
  * @param {{done: (trial: string) => void, changed: (isOn: boolean) => void}} acts `done` is called once, for a tracking that was
  *   begun or was under way here
@@ -118,22 +188,33 @@ function trackingPart(store, video, { done, changed }) {
   const element = h("div", { class: "video-going", hidden: true }, progress, words, cancel);
   let followed = null;
 
-  cancel.addEventListener("click", attempt(() => api.cancelJob(followed)));
-  store.watch(({ jobs }) => [jobOf({ jobs }, video)], (state) => {
-    const job = jobOf(state, video);
-    if (!job) return;
-    const on = jobIsOn(job);
-    const ended = followed === job.id && !on;
-    if (on) followed = job.id;
-    element.dataset.tracks = on ? video : "";
-    element.hidden = !on && !ended && job.state !== "failed";
-    [progress.hidden, cancel.hidden] = [!on, !on];
-    bar.style.transform = `scaleX(${job.share ?? 0})`;
-    setText(words, job.state === "running" ? `Tracking, ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence || job.state);
-    changed(on);
-    if (!ended) return;
-    followed = null;
-    if (job.state === "done" && job.result?.trial && element.isConnected) done(job.result.trial);
-  });
+  cancel.addEventListener(
+    "click",
+    attempt(() => api.cancelJob(followed)),
+  );
+  store.watch(
+    ({ jobs }) => [jobOf({ jobs }, video)],
+    (state) => {
+      const job = jobOf(state, video);
+      if (!job) return;
+      const on = jobIsOn(job);
+      const ended = followed === job.id && !on;
+      if (on) followed = job.id;
+      element.dataset.tracks = on ? video : "";
+      element.hidden = !on && !ended && job.state !== "failed";
+      [progress.hidden, cancel.hidden] = [!on, !on];
+      bar.style.transform = `scaleX(${job.share ?? 0})`;
+      setText(
+        words,
+        job.state === "running"
+          ? `Tracking, ${fixed((job.share ?? 0) * 100, 0)} %`
+          : job.sentence || job.state,
+      );
+      changed(on);
+      if (!ended) return;
+      followed = null;
+      if (job.state === "done" && job.result?.trial && element.isConnected) done(job.result.trial);
+    },
+  );
   return element;
 }

@@ -8,35 +8,90 @@ import { videoApi } from "../api/videos.js";
 import "../pictures/picture_style.js";
 
 /** Size, rate and length of a video. */
-export const videoFacts = ({ size, rate, seconds, bytes }) => `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${durationText(seconds)} · ${sizeText(bytes)}`;
+export const videoFacts = ({ size, rate, seconds, bytes }) =>
+  `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${durationText(seconds)} · ${sizeText(bytes)}`;
 
-const trialsText = ({ trials }) => (trials.length > 1 ? `has ${trials.length} trials` : trials.length ? "has a trial" : "");
+const trialsText = ({ trials }) =>
+  trials.length > 1 ? `has ${trials.length} trials` : trials.length ? "has a trial" : "";
 
 /** A kept video in the list, with the ways to what was tracked in it. */
 export function videoRow(video, { open, trial }) {
   const origin = video.kind === "recording" ? `recorded run, camera ${video.camera}` : "";
   const state = video.state === "kept" ? origin : video.state;
   const { trials } = video;
-  const ways = trials.map(({ id, name }) => h("button", { type: "button", class: "link", text: trials.length > 1 ? `Trial: ${name}` : "Open its trial", title: name, on: { click: () => trial(id) } }));
-  return h("li", {}, h("button", { type: "button", class: "run-row", data: { video: video.id }, title: video.sentence || "Track the feet in this video", on: { click: () => open(video) } },
-    h("span", { class: "run-line" }, h("b", { text: video.name }), h("span", { text: durationText(video.seconds) })),
-    h("span", { class: "run-line quiet" }, h("span", { text: [clockTime(video.made), state, trialsText(video)].filter(Boolean).join(" · ") }))), ways.length ? h("div", { class: "video-trials" }, ...ways) : null);
+  const ways = trials.map(({ id, name }) =>
+    h("button", {
+      type: "button",
+      class: "link",
+      text: trials.length > 1 ? `Trial: ${name}` : "Open its trial",
+      title: name,
+      on: { click: () => trial(id) },
+    }),
+  );
+  return h(
+    "li",
+    {},
+    h(
+      "button",
+      {
+        type: "button",
+        class: "run-row",
+        data: { video: video.id },
+        title: video.sentence || "Track the feet in this video",
+        on: { click: () => open(video) },
+      },
+      h(
+        "span",
+        { class: "run-line" },
+        h("b", { text: video.name }),
+        h("span", { text: durationText(video.seconds) }),
+      ),
+      h(
+        "span",
+        { class: "run-line quiet" },
+        h("span", { text: [clockTime(video.made), state, trialsText(video)].filter(Boolean).join(" · ") }),
+      ),
+    ),
+    ways.length ? h("div", { class: "video-trials" }, ...ways) : null,
+  );
 }
 
 /** A field for a file, which is sent when it is chosen, with its progress and Cancel. */
 function buildUpload() {
-  const file = h("input", { type: "file", accept: "video/*,.avi,.mkv,.mov,.mp4", "aria-label": "Video file" });
+  const file = h("input", {
+    type: "file",
+    accept: "video/*,.avi,.mkv,.mov,.mp4",
+    "aria-label": "Video file",
+  });
   const bar = h("i");
   const words = h("p", { class: "quiet number", role: "status" });
   const cancel = h("button", { type: "button", text: "Cancel", "aria-label": "Cancel upload" });
-  const going = h("div", { class: "video-going", hidden: true }, h("div", { class: "progress" }, bar), words, cancel);
-  const field = { element: h("div", { class: "video-upload" }, h("label", {}, h("span", { text: "Video file" }), file), going), done: () => {} };
+  const going = h(
+    "div",
+    { class: "video-going", hidden: true },
+    h("div", { class: "progress" }, bar),
+    words,
+    cancel,
+  );
+  const field = {
+    element: h(
+      "div",
+      { class: "video-upload" },
+      h("label", {}, h("span", { text: "Video file" }), file),
+      going,
+    ),
+    done: () => {},
+  };
   let ending = null;
 
   function progress(share, size) {
     bar.style.transform = `scaleX(${share})`;
-    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent`
-      : "The upload is complete. The studio is reading the video…");
+    setText(
+      words,
+      share < 1
+        ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent`
+        : "The upload is complete. The studio is reading the video…",
+    );
   }
 
   async function send() {
@@ -47,15 +102,21 @@ function buildUpload() {
     progress(0, chosen.size);
     let video = null;
     try {
-      video = await videoApi.upload(chosen, { signal: ending.signal, progress: (share) => progress(share, chosen.size) });
+      video = await videoApi.upload(chosen, {
+        signal: ending.signal,
+        progress: (share) => progress(share, chosen.size),
+      });
     } catch (error) {
       report(error);
     }
     ending = null;
     [going.hidden, file.disabled, file.value] = [true, false, ""];
-    if (video?.again) toast(`The studio already has “${chosen.name}”. `
-      + `The file has the same content as the video “${video.name}”, sent ${clockTime(video.made)}.`,
-    { of: "studio" });
+    if (video?.again)
+      toast(
+        `The studio already has “${chosen.name}”. `
+          + `The file has the same content as the video “${video.name}”, sent ${clockTime(video.made)}.`,
+        { of: "studio" },
+      );
     if (video && field.element.isConnected) field.done(video);
     else if (video) {
       const act = () => field.done(video);
@@ -72,7 +133,7 @@ let upload = null;
 
 /**
  * The field for a video; a file goes on being sent where its panel is left, and is there again when that is opened.
- * @param {(video: object) => void} done
+ * @param {(video: Record<string, any>) => void} done
  * @returns {HTMLElement}
  */
 export function uploadField(done) {

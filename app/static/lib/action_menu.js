@@ -8,15 +8,20 @@ import { attempt, toast } from "./toasts.js";
 const GAP = 4;
 
 /**
- * @typedef {Record<string, any>} Entry
+ * @typedef {object} Entry
  * @property {string} text
  * @property {string} help
  * @property {() => void} act
  * @property {string} [group] the heading that it stands under
- * @property {() => Promise<string|null>|string|null} [refusal] why the entry cannot be used now; called when the menu opens
+ * @property {() => Promise<string|null>|string|null} [refusal] why the entry cannot be used now; called when
+ *   the menu opens
  */
 
-/** Puts a menu under its button, as wide as the drawer and as high as the window allows. */
+/**
+ * Puts a menu under its button, as wide as the drawer and as high as the window allows.
+ * @param {HTMLElement} button
+ * @param {HTMLElement} menu
+ */
 function place(button, menu) {
   const { bottom } = button.getBoundingClientRect();
   const { left, width } = (button.closest(".drawer") ?? button).getBoundingClientRect();
@@ -28,7 +33,10 @@ function place(button, menu) {
   });
 }
 
-/** The entries under one heading. */
+/**
+ * The entries under one heading.
+ * @param {string} name
+ */
 function entryGroup(name) {
   const heading = h("span", { class: "menu-heading", "aria-hidden": "true", text: name });
   return h("div", { role: "group", "aria-label": name }, heading);
@@ -37,11 +45,14 @@ function entryGroup(name) {
 /**
  * Builds the button with its menu.
  * @param {{name: string, help: string, entries: Entry[]}} options `name` stands on the button
- * @returns {{element: HTMLElement, add: (entry: Entry, at?: number) => void}} `add` puts another entry before the one at
- *   a place (a negative place counts from the end), or last; an entry of a group that is there goes to the group's end
+ * @returns {{element: HTMLElement, add: (entry: Entry, at?: number) => void}} `add` puts another entry before
+ *   the one at a place (a negative place counts from the end), or last; an entry of a group that is there goes
+ *   to the group's end
  */
 export function actionMenu({ name, help, entries }) {
+  /** @type {HTMLElement[]} */
   const items = [];
+  /** @type {Map<string, HTMLElement>} */
   const groups = new Map();
   const button = h("button", {
     class: "link menu-button",
@@ -58,6 +69,7 @@ export function actionMenu({ name, help, entries }) {
     hidden: true,
   });
   const element = h("div", { class: "check-menu act-menu" }, button, menu);
+  /** @type {(() => void)[]} */
   const questions = [];
   const prepare = () => {
     place(button, menu);
@@ -68,20 +80,22 @@ export function actionMenu({ name, help, entries }) {
     if (key === "ArrowDown") prepare();
   });
 
+  /** @type {(item: HTMLElement, group: string|undefined, at: number) => void} */
   const insert = (item, group, at) => {
     const next = items.at(at);
     const before = next?.closest('[role="group"]') ?? next ?? null;
     if (!group) menu.insertBefore(item, before);
     else {
-      if (!groups.has(group)) {
-        groups.set(group, entryGroup(group));
-        menu.insertBefore(groups.get(group), before);
-      }
-      groups.get(group).append(item);
+      const known = groups.get(group) ?? entryGroup(group);
+      if (!groups.has(group)) menu.insertBefore(known, before);
+      groups.set(group, known);
+      known.append(item);
     }
-    items.splice(0, items.length, ...menu.querySelectorAll('[role="menuitem"]'));
+    const now = /** @type {NodeListOf<HTMLElement>} */ (menu.querySelectorAll('[role="menuitem"]'));
+    items.splice(0, items.length, ...now);
   };
 
+  /** @type {(entry: Entry, at?: number) => void} */
   const add = ({ text, help: own, act, group, refusal }, at = items.length) => {
     const item = h("button", { role: "menuitem", tabindex: "-1", title: own, text });
     onPress(

@@ -2,6 +2,7 @@
 
 import { h, setAttribute } from "./dom.js";
 
+/** @type {Record<string, (at: number, count: number) => number>} */
 const MOVES = {
   ArrowDown: (at, count) => (at + 1) % count,
   ArrowUp: (at, count) => (at + count - 1) % count,
@@ -9,10 +10,16 @@ const MOVES = {
   End: (at, count) => count - 1,
 };
 
-/** Opens and closes a menu: by its button, by keys, and by whatever takes the focus elsewhere. */
+/**
+ * Opens and closes a menu: by its button, by keys, and by whatever takes the focus elsewhere.
+ * @param {HTMLElement} root
+ * @param {HTMLElement} button
+ * @param {HTMLElement} menu
+ * @param {HTMLElement[]} items
+ */
 export function openable(root, button, menu, items) {
   const isOpen = () => !menu.hidden;
-  const setOpen = (open, focus) => {
+  const setOpen = (/** @type {boolean} */ open, /** @type {boolean} */ focus) => {
     menu.hidden = !open;
     button.setAttribute("aria-expanded", String(open));
     if (open) items[0]?.focus({ preventScroll: true });
@@ -23,18 +30,18 @@ export function openable(root, button, menu, items) {
     if (event.key === "Escape" && isOpen()) setOpen(false, true);
     else if (event.target === button && event.key === "ArrowDown") setOpen(true, false);
     else if (!MOVES[event.key] || !isOpen()) return;
-    else
-      items[MOVES[event.key](items.indexOf(document.activeElement), items.length)].focus({
-        preventScroll: true,
-      });
+    else {
+      const at = items.findIndex((item) => item === document.activeElement);
+      items[MOVES[event.key](at, items.length)].focus({ preventScroll: true });
+    }
     event.preventDefault();
   });
   root.addEventListener("focusout", ({ relatedTarget }) => {
-    if (!root.contains(relatedTarget)) setOpen(false, false);
+    if (!root.contains(/** @type {Node|null} */ (relatedTarget))) setOpen(false, false);
   });
   // A press that gives nothing the focus; one inside the 3D scene takes it from the whole page.
   document.addEventListener("pointerdown", ({ target }) => {
-    if (isOpen() && !root.contains(target)) setOpen(false, false);
+    if (isOpen() && !root.contains(/** @type {Node|null} */ (target))) setOpen(false, false);
   });
   window.addEventListener("blur", () => {
     if (isOpen()) setOpen(false, false);
@@ -45,38 +52,38 @@ export function openable(root, button, menu, items) {
 export const menuIsOpen = () => document.querySelector('.check-menu [role="menu"]:not([hidden])') !== null;
 
 /**
+ * @typedef {object} CheckEntry
+ * @property {string} key
+ * @property {string} text
+ * @property {string} help
+ * @property {boolean} checked
+ * @property {boolean} [swatch] shows the colour that the style sheet gives to the entry's key
+ */
+
+/** @param {CheckEntry} entry */
+const checkItem = ({ key, text, help, checked, swatch }) =>
+  h(
+    "button",
+    { role: "menuitemcheckbox", tabindex: "-1", "aria-checked": String(checked), title: help },
+    h("span", { class: "tick-mark", "aria-hidden": "true" }),
+    text,
+    swatch && h("i", { class: "swatch", "aria-hidden": "true", data: { of: key } }),
+  );
+
+/**
  * Builds the button with its menu.
- * @param {Record<string, any>} options
+ * @param {object} options
  * @param {string} options.id of the button
  * @param {string} options.name on the button
  * @param {string} options.help
- * @param {{key: string, text: string, help: string, checked: boolean, swatch?: boolean}[]} options.entries `swatch` shows
- *   the colour that the style sheet gives to the entry's key
+ * @param {CheckEntry[]} options.entries
  * @param {(key: string, checked: boolean) => void} options.onChange
- * @returns {{element: HTMLElement, allow: (key: string, reason: string|null) => void, isOn: (key: string) => boolean}}
- *   `allow` greys an entry with the reason why it cannot be shown
+ * @returns {{element: HTMLElement, allow: (key: string, reason: string|null) => void,
+ *   isOn: (key: string) => boolean}} `allow` greys an entry with the reason why it cannot be shown
  */
 export function checkMenu({ id, name, help, entries, onChange }) {
-  const byKey = new Map(
-    entries.map((entry) => [
-      entry.key,
-      {
-        ...entry,
-        item: h(
-          "button",
-          {
-            role: "menuitemcheckbox",
-            tabindex: "-1",
-            "aria-checked": String(entry.checked),
-            title: entry.help,
-          },
-          h("span", { class: "tick-mark", "aria-hidden": "true" }),
-          entry.text,
-          entry.swatch && h("i", { class: "swatch", "aria-hidden": "true", data: { of: entry.key } }),
-        ),
-      },
-    ]),
-  );
+  const items = entries.map(checkItem);
+  const itemOf = (/** @type {string} */ key) => items[entries.findIndex((entry) => entry.key === key)];
   const button = h("button", {
     id,
     class: "menu-button",
@@ -88,30 +95,25 @@ export function checkMenu({ id, name, help, entries, onChange }) {
   const menu = h(
     "div",
     { class: "menu", role: "menu", "aria-label": name, data: { arrows: "" }, hidden: true },
-    ...[...byKey.values()].map(({ item }) => item),
+    ...items,
   );
   const element = h("div", { class: "check-menu" }, button, menu);
-  const isOn = (key) => byKey.get(key).item.getAttribute("aria-checked") === "true";
-  for (const [key, { item }] of byKey) {
+  const isOn = (/** @type {string} */ key) => itemOf(key).getAttribute("aria-checked") === "true";
+  for (const { key } of entries) {
+    const item = itemOf(key);
     item.addEventListener("click", () => {
       if (item.getAttribute("aria-disabled") === "true") return;
       item.setAttribute("aria-checked", String(!isOn(key)));
       onChange(key, isOn(key));
     });
   }
-  openable(
-    element,
-    button,
-    menu,
-    [...byKey.values()].map(({ item }) => item),
-  );
+  openable(element, button, menu, items);
   return {
     element,
     isOn,
     allow(key, reason) {
-      const { item, help: own } = byKey.get(key);
-      setAttribute(item, "aria-disabled", reason ? "true" : null);
-      setAttribute(item, "title", reason ?? own);
+      setAttribute(itemOf(key), "aria-disabled", reason ? "true" : null);
+      setAttribute(itemOf(key), "title", reason ?? entries.find((entry) => entry.key === key)?.help);
     },
   };
 }

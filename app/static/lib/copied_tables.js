@@ -2,13 +2,20 @@
 
 import { tableCell } from "./table_cell.js";
 
-/** Rows as lines with tabs, and the text around them. */
+/**
+ * Rows as lines with tabs, and the text around them.
+ * @param {HTMLElement} copied
+ */
 function plainText(copied) {
   for (const row of copied.querySelectorAll("tr"))
-    row.replaceWith(`${[...row.cells].map((cell) => cell.textContent).join("\t")}\n`);
+    row.replaceWith(`${[...row.cells].map(({ textContent }) => textContent).join("\t")}\n`);
   return copied.textContent;
 }
 
+/**
+ * Marks the cells that begin a formula; true where there is one.
+ * @param {HTMLElement} copied
+ */
 function markCells(copied) {
   let marked = false;
   for (const cell of copied.querySelectorAll("td, th")) {
@@ -19,7 +26,10 @@ function markCells(copied) {
   return marked;
 }
 
-/** What is selected, as it would be copied; cells of one row in a row of their own. */
+/**
+ * What is selected, as it would be copied; cells of one row in a row of their own.
+ * @param {Selection} selection
+ */
 function contentsOf(selection) {
   const copied = document.createElement("div");
   copied.append(selection.getRangeAt(0).cloneContents());
@@ -35,20 +45,16 @@ function contentsOf(selection) {
 export function mountCopiedTables() {
   document.addEventListener("copy", (event) => {
     const selection = getSelection();
-    if (
-      event.defaultPrevented
-      || !selection
-      || selection.isCollapsed
-      || event.target?.closest?.("input, textarea")
-    )
-      return;
+    const { clipboardData, defaultPrevented, target } = event;
+    if (defaultPrevented || !clipboardData || !selection || selection.isCollapsed) return;
+    if (target instanceof Element && target.closest("input, textarea")) return;
     const copied = contentsOf(selection);
     if (!markCells(copied)) return;
-    event.clipboardData.setData(
+    clipboardData.setData(
       "text/html",
       copied.querySelector("table") ? copied.innerHTML : `<table>${copied.innerHTML}</table>`,
     );
-    event.clipboardData.setData("text/plain", plainText(copied));
+    clipboardData.setData("text/plain", plainText(copied));
     event.preventDefault();
   });
 }

@@ -1,17 +1,21 @@
 /**
- * Questions to the user. A dialog locks the page but for Stop, which lies over its scrim and can be reached by Tab.
+ * Questions to the user. A dialog locks the page but for Stop, which lies over its scrim and can be reached
+ * by Tab.
  */
 
 import { byId, h, setInert } from "./dom.js";
 
 /** Everything beside the dialog and Stop. */
 const others = () =>
-  [...document.body.children]
+  /** @type {HTMLElement[]} */ ([...document.body.children])
     .filter(({ id }) => !["dialogs", "announcer"].includes(id))
     .flatMap((part) =>
-      part.contains(byId("stop")) ? [...part.children].filter(({ id }) => id !== "stop") : [part],
+      part.contains(byId("stop"))
+        ? /** @type {HTMLElement[]} */ ([...part.children]).filter(({ id }) => id !== "stop")
+        : [part],
     );
 
+/** @type {HTMLElement[]} */
 let locked = [];
 
 function lock() {
@@ -29,10 +33,12 @@ function unlock() {
  * Opens what `build(close)` makes; resolves to what `close` is given, or to null after Escape.
  * @param {(close: (value: any) => void) => HTMLElement} build
  * @param {() => void} [opened] called once it is open
+ * @returns {Promise<any>}
  */
 export function openDialog(build, opened = () => {}) {
   return new Promise((resolve) => {
-    const before = document.activeElement;
+    const before = /** @type {HTMLElement|null} */ (document.activeElement);
+    /** @param {any} value */
     const close = (value) => {
       byId("dialogs").replaceChildren();
       unlock();
@@ -47,15 +53,21 @@ export function openDialog(build, opened = () => {}) {
     });
     byId("dialogs").replaceChildren(h("div", { class: "scrim", "aria-hidden": "true" }), dialog);
     lock();
-    (dialog.querySelector("input") ?? dialog.querySelector("button")).focus();
+    (dialog.querySelector("input") ?? dialog.querySelector("button"))?.focus();
     opened();
   });
 }
 
-/** A dialog's frame: its title, and a form that `accept` takes. */
+/**
+ * A dialog's frame: its title, and a form that `accept` takes.
+ * @param {string} title
+ * @param {(value: any) => void} close
+ * @param {() => void} accept
+ * @param {...(Node|string|null|false|undefined)} content
+ */
 export function dialogFrame(title, close, accept, ...content) {
   const id = "dialog-title";
-  const submit = (event) => {
+  const submit = (/** @type {Event} */ event) => {
     event.preventDefault();
     accept();
   };
@@ -66,7 +78,13 @@ export function dialogFrame(title, close, accept, ...content) {
   );
 }
 
-/** Asks for a name; resolves to it, or to null where the user thought better of it. */
+/**
+ * Asks for a name; resolves to it, or to null where the user thought better of it.
+ * @param {string} title
+ * @param {string} sentence
+ * @param {string} [value]
+ * @returns {Promise<string|null>}
+ */
 export function askName(title, sentence, value = "") {
   return openDialog((close) => {
     const input = h("input", {
@@ -96,7 +114,13 @@ export function askName(title, sentence, value = "") {
   });
 }
 
-/** Asks before something that moves the robot; resolves to true or null. */
+/**
+ * Asks before something that moves the robot; resolves to true or null.
+ * @param {string} title
+ * @param {string} sentence
+ * @param {string} label
+ * @returns {Promise<true|null>}
+ */
 export function confirmAction(title, sentence, label) {
   return openDialog((close) =>
     dialogFrame(

@@ -11,7 +11,8 @@ export const byId = (id) => document.getElementById(id);
  * Builds an element.
  * @template {keyof HTMLElementTagNameMap} Tag
  * @param {Tag} tag
- * @param {Record<string, any>} [attributes] `class`, `text`, `on` (listeners), `data` (dataset), else attributes; null skips
+ * @param {Record<string, any>} [attributes] `class`, `text`, `on` (listeners), `data` (dataset), else
+ *   attributes; null skips
  * @param {...(Node|string|null|false|undefined)} children
  * @returns {HTMLElementTagNameMap[Tag]}
  */
@@ -25,11 +26,19 @@ export function h(tag, attributes = {}, ...children) {
     else if (name === "data") Object.assign(element.dataset, value);
     else element.setAttribute(name, value === true ? "" : value);
   }
-  element.append(...children.filter((child) => child !== null && child !== undefined && child !== false));
+  const given = children.filter((child) => child !== null && child !== undefined && child !== false);
+  element.append(.../** @type {(Node|string)[]} */ (given));
   return element;
 }
 
-/** Builds an SVG element; `text` is its content. */
+/**
+ * Builds an SVG element; `text` is its content.
+ * @template {keyof SVGElementTagNameMap} Tag
+ * @param {Tag} tag
+ * @param {Record<string, any>} [attributes]
+ * @param {...(Node|string)} children
+ * @returns {SVGElementTagNameMap[Tag]}
+ */
 export function svg(tag, attributes = {}, ...children) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -40,16 +49,28 @@ export function svg(tag, attributes = {}, ...children) {
   return element;
 }
 
-/** An icon of the sprite in index.html. */
+/**
+ * An icon of the sprite in index.html.
+ * @param {string} name
+ */
 export function icon(name) {
   const use = svg("use", { href: `#i-${name}` });
   return svg("svg", { class: "icon", "aria-hidden": "true" }, use);
 }
 
+/**
+ * @param {Node} element
+ * @param {string} text
+ */
 export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/**
+ * @param {Element} element
+ * @param {string} name
+ * @param {any} value true for an empty attribute; null, undefined or false for none
+ */
 export function setAttribute(element, name, value) {
   if (value === null || value === undefined || value === false) element.removeAttribute(name);
   else if (element.getAttribute(name) !== String(value))
@@ -59,6 +80,9 @@ export function setAttribute(element, name, value) {
 /**
  * Enables a button, or disables it with the reason as hover help.
  * The button stays focusable, so that the reason can be found by keyboard.
+ * @param {Element} button
+ * @param {string|null|undefined} reason
+ * @param {string} [help]
  */
 export function setAllowed(button, reason, help = "") {
   setAttribute(button, "aria-disabled", reason ? "true" : null);
@@ -66,7 +90,12 @@ export function setAllowed(button, reason, help = "") {
   setAttribute(button, "aria-description", reason || null);
 }
 
-/** Calls `act` on a click. If the button is disabled, `explain` gets the reason instead. */
+/**
+ * Calls `act` on a click. If the button is disabled, `explain` gets the reason instead.
+ * @param {HTMLElement} button
+ * @param {(event: MouseEvent) => void} act
+ * @param {(reason: string) => void} [explain]
+ */
 export function onPress(button, act, explain = () => {}) {
   button.addEventListener("click", (event) => {
     if (button.getAttribute("aria-disabled") === "true") explain(button.title);
@@ -74,7 +103,10 @@ export function onPress(button, act, explain = () => {}) {
   });
 }
 
-/** Resolves when the current changes have been painted. */
+/**
+ * Resolves when the current changes have been painted.
+ * @returns {Promise<void>}
+ */
 export const painted = () =>
   new Promise((resume) => {
     requestAnimationFrame(() => setTimeout(resume));

@@ -25,7 +25,13 @@ export function refusalOf(control) {
   };
 }
 
-/** What a whole number is worth, or the sentence that refuses it. */
+/**
+ * What a whole number is worth, or the sentence that refuses it.
+ * @param {HTMLInputElement} input
+ * @param {string} name
+ * @param {{min: number, max: number, unit?: string}} range
+ * @returns {{value?: number, sentence?: string}}
+ */
 export function wholeNumber(input, name, { min, max, unit = "" }) {
   const text = input.value.trim();
   const range = `a whole number between ${min} and ${max}${unit && ` ${unit}`}`;

@@ -4,8 +4,8 @@ import { byId } from "./dom.js";
 
 /**
  * @param {HTMLElement[]} above What may grow.
- * @param {function(): number} edge Where they end, px; grows as they do.
- * @param {function(): boolean} isWorking Whether a person works on something below them.
+ * @param {() => number} edge Where they end, px; grows as they do.
+ * @param {() => boolean} isWorking Whether a person works on something below them.
  */
 export function keepPlace(above, edge, isWorking) {
   const panel = byId("sections");

@@ -5,8 +5,10 @@
  */
 export function latestOnly(work) {
   let busy = false;
+  /** @type {{value: any}|null} */
   let next = null;
 
+  /** @param {any} value */
   async function run(value) {
     busy = true;
     await work(value);

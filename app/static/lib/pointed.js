@@ -1,15 +1,16 @@
-/** What is read under a pointer: of a mouse as long as it is there, of a finger until the next touch elsewhere. */
+/** What is read under a pointer: a mouse's as long as it is there, a finger's until it touches elsewhere. */
 
 /**
- * @param {Element} element
+ * @param {GlobalEventHandlers & Node} element
  * @param {(event: PointerEvent) => void} show called wherever the pointer is, or a finger comes down
  * @param {() => void} hide
  */
 export function onPointed(element, show, hide) {
-  const elsewhere = ({ target }) => {
-    if (!element.contains(target)) hide();
+  const elsewhere = (/** @type {PointerEvent} */ { target }) => {
+    if (!element.contains(/** @type {Node} */ (target))) hide();
   };
-  for (const type of ["pointerdown", "pointermove"]) element.addEventListener(type, show);
+  element.addEventListener("pointerdown", show);
+  element.addEventListener("pointermove", show);
   element.addEventListener("pointerleave", ({ pointerType }) => {
     if (pointerType !== "touch") hide();
     else document.addEventListener("pointerdown", elsewhere, { capture: true, once: true });

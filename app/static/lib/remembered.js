@@ -1,15 +1,24 @@
 /** Choices that this browser keeps from visit to visit. */
 
-/** The object that was kept under a name; empty where there is none. */
+/**
+ * The object that was kept under a name; empty where there is none.
+ * @param {string} name
+ * @returns {Record<string, any>}
+ */
 export function remembered(name) {
   try {
-    return JSON.parse(localStorage.getItem(`footfall.${name}`)) ?? {};
+    return JSON.parse(localStorage.getItem(`footfall.${name}`) ?? "null") ?? {};
   } catch {
     return {};
   }
 }
 
-/** The defaults, with each value that was kept and has the type of its default. */
+/**
+ * The defaults, with each value that was kept and has the type of its default.
+ * @param {string} name
+ * @param {Record<string, any>} defaults
+ * @returns {Record<string, any>}
+ */
 export function recalled(name, defaults) {
   const kept = remembered(name);
   return Object.fromEntries(
@@ -20,7 +29,11 @@ export function recalled(name, defaults) {
   );
 }
 
-/** Keeps an object under a name. */
+/**
+ * Keeps an object under a name.
+ * @param {string} name
+ * @param {Record<string, any>} choice
+ */
 export function remember(name, choice) {
   try {
     localStorage.setItem(`footfall.${name}`, JSON.stringify(choice));

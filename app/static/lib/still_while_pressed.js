@@ -8,12 +8,12 @@ let count = 0;
 
 /**
  * Shows nothing new of the state between a press on a button and its release; then the newest.
- * @param {import("../state/store.js").Store} store
+ * @param {{hold: (isOn: boolean) => void}} store
  * @param {HTMLElement} element whose buttons are meant
  */
 export function stillWhilePressed(store, element) {
   element.addEventListener("pointerdown", ({ target, pointerId: pressed }) => {
-    if (!target.closest("button, summary, a")) return;
+    if (!(/** @type {Element} */ (target).closest("button, summary, a"))) return;
     const ended = new AbortController();
     const letGo = () => {
       if (ended.signal.aborted) return;
@@ -22,7 +22,7 @@ export function stillWhilePressed(store, element) {
       if (!count) store.hold(false);
     };
     const timer = setTimeout(letGo, LONGEST_MS);
-    const release = ({ pointerId }) => {
+    const release = (/** @type {PointerEvent} */ { pointerId }) => {
       if (pointerId !== pressed) return;
       clearTimeout(timer);
       // The click comes after the release.
@@ -30,7 +30,7 @@ export function stillWhilePressed(store, element) {
     };
     count += 1;
     store.hold(true);
-    for (const name of ["pointerup", "pointercancel"])
-      window.addEventListener(name, release, { signal: ended.signal });
+    window.addEventListener("pointerup", release, { signal: ended.signal });
+    window.addEventListener("pointercancel", release, { signal: ended.signal });
   });
 }

@@ -1,6 +1,6 @@
 /**
- * Cells of copied tables: texts that a spreadsheet would run as formulas are marked as text by an apostrophe. The same rule
- * writes exported files (`app/common/table_cell.py`).
+ * Cells of copied tables: texts that a spreadsheet would run as formulas are marked as text by an apostrophe.
+ * The same rule writes exported files (`app/common/table_cell.py`).
  */
 
 const NUMBER = /^ *[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*$/i;

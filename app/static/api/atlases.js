@@ -1,14 +1,17 @@
 /** Requests about atlases. */
 
-import { request } from "./gaits.js";
+import { onEach, post, request } from "./gaits.js";
 
-const addressOf = (name) => `/api/atlases/${encodeURIComponent(name)}`;
+const addressOf = (/** @type {string} */ name) => `/api/atlases/${encodeURIComponent(name)}`;
+const onAtlas = onEach(addressOf);
 
 export const atlasApi = {
   list: () => request("GET", "/api/atlases"),
-  make: (body) => request("POST", "/api/atlases", body),
-  erase: (name) => request("DELETE", addressOf(name)),
-  restore: (name) => request("POST", `${addressOf(name)}/restore`),
+  make: post("/api/atlases"),
+  erase: onAtlas("DELETE"),
+  restore: onAtlas("POST", "/restore"),
+  /** @param {string} name */
   mapAddress: (name) => `${addressOf(name)}/map`,
+  /** @type {(name: string, format: string) => string} */
   fileAddress: (name, format) => `${addressOf(name)}/export?format=${format}`,
 };

@@ -1,6 +1,7 @@
 /**
- * Who edits: this tab, and the person who sits at it. Both go along with every request, so that undo takes back
- * one's own edits. The tab's id survives a reload; a tab that a browser made as a copy of another takes a new one.
+ * Who edits: this tab, and the person who sits at it. Both go along with every request, so that undo takes
+ * back one's own edits. The tab's id survives a reload; a tab that a browser made as a copy of another takes
+ * a new one.
  */
 
 const KEY = "footfall.page";
@@ -16,6 +17,7 @@ function recalled() {
   }
 }
 
+/** @param {string} id */
 function keep(id) {
   try {
     sessionStorage.setItem(KEY, id);
@@ -47,22 +49,35 @@ export const editNumber = () => `${load}.${(edits += 1)}`;
 /** This tab's id. */
 export const pageId = () => page;
 
-/** `act` is called when the tab had to take another id. */
+/**
+ * `act` is called when the tab had to take another id.
+ * @param {() => void} act
+ */
 export function onRenamed(act) {
   renamed = act;
 }
 
-/** Tells the studio from now on who sits here. */
+/**
+ * Tells the studio from now on who sits here.
+ * @param {string} person
+ */
 export function nameAuthor(person) {
   name = person;
 }
 
-/** The headers that identify who edits. */
+/**
+ * The headers that identify who edits.
+ * @returns {Record<string, string>}
+ */
 export function authorHeaders() {
   return { "X-Footfall-Page": page, ...(name ? { "X-Footfall-Name": encodeURIComponent(name) } : {}) };
 }
 
-/** What this tab can undo and redo of a gait: names of edits, or null. */
+/**
+ * What this tab can undo and redo of a gait: names of edits, or null.
+ * @param {Record<string, any>|null} view
+ * @returns {{undo: string|null, redo: string|null}}
+ */
 export function ownSteps(view) {
   return view?.steps?.[page] ?? { undo: view?.undo ?? null, redo: view?.redo ?? null };
 }

@@ -1,16 +1,22 @@
 /** Requests for learning from trials. */
 
-import { request } from "./gaits.js";
+import { onEach, post, request } from "./gaits.js";
 
-const course = (id) => `/api/learning/${encodeURIComponent(id)}`;
+/** @typedef {{name: string, version: number}} SetName */
+
+const course = (/** @type {string} */ id) => `/api/learning/${encodeURIComponent(id)}`;
+const onCourse = onEach(course);
 
 export const learningApi = {
   courses: async () => (await request("GET", "/api/learning")).courses,
-  course: (id) => request("GET", course(id)),
-  start: (wanted) => request("POST", "/api/learning", wanted),
-  cancel: (id) => request("DELETE", course(id)),
+  course: onCourse("GET"),
+  start: post("/api/learning"),
+  cancel: onCourse("DELETE"),
+  /** @type {(id: string, name: string) => Promise<any>} */
   keep: (id, name) => request("POST", `${course(id)}/set`, { name }),
   sets: async () => (await request("GET", "/api/learning/sets")).sets,
+  /** @param {SetName} set */
   removeSet: ({ name, version }) => request("POST", "/api/learning/sets/delete", { name, version }),
+  /** @param {SetName} set */
   restoreSet: ({ name, version }) => request("POST", "/api/learning/sets/restore", { name, version }),
 };

@@ -1,6 +1,6 @@
 /**
- * The WebSocket to /api/events. This module is loaded ahead of the page's others and opens the first one at once,
- * so that the greeting is on its way while they are still being read.
+ * The WebSocket to /api/events. This module is loaded ahead of the page's others and opens the first one at
+ * once, so that the greeting is on its way while they are still being read.
  */
 
 import { onRenamed, pageId } from "./author.js";
@@ -15,8 +15,9 @@ export function openSocket() {
 }
 
 const first = openSocket();
+/** @type {string[]} */
 const early = [];
-const keep = ({ data }) => early.push(data);
+const keep = (/** @type {MessageEvent} */ { data }) => early.push(data);
 first.addEventListener("message", keep);
 onRenamed(() => first.close());
 

@@ -1,17 +1,20 @@
 /** Requests for trials. */
 
-import { request } from "./gaits.js";
+import { onEach, post, request } from "./gaits.js";
 
-const trial = (id) => `/api/trials/${encodeURIComponent(id)}`;
+const trial = (/** @type {string} */ id) => `/api/trials/${encodeURIComponent(id)}`;
+
+const onTrial = onEach(trial);
 
 export const trialApi = {
   list: () => request("GET", "/api/trials"),
-  read: (id) => request("GET", trial(id)),
-  paths: (id) => request("GET", `${trial(id)}/paths`),
-  add: (body) => request("POST", "/api/trials", body),
+  read: onTrial("GET"),
+  paths: onTrial("GET", "/paths"),
+  add: post("/api/trials"),
   example: () => request("POST", "/api/trials/example"),
+  /** @type {(id: string, revision: number, changes: Record<string, any>) => Promise<any>} */
   change: (id, revision, changes) => request("PUT", trial(id), { revision, ...changes }),
-  remove: (id) => request("DELETE", trial(id)),
-  restore: (id) => request("POST", `${trial(id)}/restore`),
+  remove: onTrial("DELETE"),
+  restore: onTrial("POST", "/restore"),
   runs: () => request("GET", "/api/runs?most=50"),
 };

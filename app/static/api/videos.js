@@ -1,10 +1,17 @@
 /** Requests for videos, cameras and camera setups. */
 
-import { ApiError, request } from "./gaits.js";
+import { ApiError, onEach, post, request } from "./gaits.js";
 import { authorHeaders } from "./author.js";
 
+/** @typedef {import("./gaits.js").Json} Json */
+
+/** @type {(kind: string, id: string) => string} */
 const at = (kind, id) => `/api/${kind}/${encodeURIComponent(id)}`;
 
+const onVideo = onEach((id) => at("videos", id));
+const onSetup = onEach((id) => at("setups", id));
+
+/** @param {XMLHttpRequest} request */
 function refusal({ status, responseText }) {
   try {
     const { error, where = null } = JSON.parse(responseText);
@@ -15,12 +22,14 @@ function refusal({ status, responseText }) {
   return new ApiError(`The studio refused the request and gave no reason (status ${status}).`, status);
 }
 
+/** @typedef {{signal?: AbortSignal, progress?: (share: number) => void}} Sending */
+
 /**
  * Sends a file as it is.
  * @param {string} path
  * @param {Blob} file
- * @param {{signal?: AbortSignal, progress?: (share: number) => void}} [options]
- * @returns {Promise<Record<string, any>>} the answer; null where it was cancelled
+ * @param {Sending} [options]
+ * @returns {Promise<any>} the answer; null where it was cancelled
  */
 function sendFile(path, file, { signal, progress = () => {} } = {}) {
   return new Promise((resolve, reject) => {
@@ -43,37 +52,47 @@ function sendFile(path, file, { signal, progress = () => {} } = {}) {
   });
 }
 
-const parameters = (values) => new URLSearchParams(values).toString();
+const parameters = (/** @type {Json} */ values) => new URLSearchParams(values).toString();
 
 export const videoApi = {
   list: () => request("GET", "/api/videos"),
+  /** @param {string} run */
   ofRun: async (run) => (await request("GET", `/api/videos?${parameters({ run })}`)).videos,
-  read: (id) => request("GET", at("videos", id)),
-  remove: (id) => request("DELETE", at("videos", id)),
-  restore: (id) => request("POST", `${at("videos", id)}/restore`),
+  read: onVideo("GET"),
+  remove: onVideo("DELETE"),
+  restore: onVideo("POST", "/restore"),
+  /** @type {(file: File, options?: Sending) => Promise<any>} */
   upload: (file, options) => sendFile(`/api/videos?${parameters({ name: file.name })}`, file, options),
+  /** @type {(id: string, body: Json) => Promise<any>} */
   track: (id, body) => request("POST", `${at("videos", id)}/track`, body),
+  /** @type {(id: string, body: Json) => Promise<any>} */
   boards: (id, body) => request("POST", `${at("videos", id)}/boards`, body),
 };
 
 export const setupApi = {
   list: () => request("GET", "/api/setups"),
-  read: (id) => request("GET", at("setups", id)),
-  add: (setup) => request("POST", "/api/setups", setup),
+  read: onSetup("GET"),
+  add: post("/api/setups"),
+  /** @type {(id: string, revision: number, setup: Json) => Promise<any>} */
   change: (id, revision, setup) => request("PUT", at("setups", id), { revision, setup }),
-  check: (setup) => request("POST", "/api/setups/check", setup),
-  remove: (id) => request("DELETE", at("setups", id)),
-  restore: (id) => request("POST", `${at("setups", id)}/restore`),
+  check: post("/api/setups/check"),
+  remove: onSetup("DELETE"),
+  restore: onSetup("POST", "/restore"),
+  /** @param {string} id */
   exportPath: (id) => `${at("setups", id)}/export`,
+  /** @type {(file: File, columns: number, rows: number, signal?: AbortSignal) => Promise<any>} */
   board: (file, columns, rows, signal) =>
     sendFile(`/api/boards?${parameters({ columns, rows, name: file.name })}`, file, { signal }),
-  lens: (body) => request("POST", "/api/lens", body),
+  lens: post("/api/lens"),
+  /** @type {(lens: Json, picture: string) => Promise<any>} */
   straight: (lens, picture) => request("POST", "/api/lens/look", { lens, picture }),
 };
 
 export const cameraApi = {
   list: async () => (await request("GET", "/api/cameras")).cameras,
+  /** @type {(id: string, changes: Json) => Promise<any>} */
   change: (id, changes) => request("PUT", at("cameras", id), changes),
+  /** @type {(id: string, columns: number, rows: number) => Promise<any>} */
   board: (id, columns, rows) =>
     request("POST", `${at("cameras", id)}/board?${parameters({ columns, rows })}`),
 };
@@ -83,19 +102,31 @@ export const cameraApi = {
  * @typedef {{kind: "video"|"camera", id: string, name: string, frames: number, rate: number}} Source
  */
 
+/** @type {(video: Json) => Source} */
 export const videoSource = ({ id, name, frames, rate }) => ({ kind: "video", id, name, frames, rate });
+/** @type {(camera: Json) => Source} */
 export const cameraSource = ({ id, name }) => ({ kind: "camera", id, name, frames: 0, rate: 0 });
 
-const base = ({ kind, id }) => at(`${kind}s`, id);
+const base = (/** @type {Source} */ { kind, id }) => at(`${kind}s`, id);
+/** @type {(source: Source, frame: number) => string} */
 const ofFrame = ({ kind }, frame) => (kind === "video" ? `?frame=${frame}` : "");
 
-/** Looks at one picture of a source with a foot's colours. */
+/**
+ * Looks at one picture of a source with a foot's colours.
+ * @type {(source: Source, frame: number, body: Json, signal?: AbortSignal) => Promise<any>}
+ */
 export const look = (source, frame, body, signal) =>
   request("POST", `${base(source)}/look${ofFrame(source, frame)}`, body, signal);
 
-/** The address of one picture of a source; a camera's is another one each time. */
+/**
+ * The address of one picture of a source; a camera's is another one each time.
+ * @type {(source: Source, frame: number) => string}
+ */
 export const pictureOf = (source, frame) =>
   `${base(source)}/picture.jpg${source.kind === "video" ? `?frame=${frame}` : `?now=${Date.now()}`}`;
 
-/** The address of a camera's moving picture. */
+/**
+ * The address of a camera's moving picture.
+ * @type {(id: string, most: number, rate?: number) => string}
+ */
 export const streamOf = (id, most, rate = 10) => `${at("cameras", id)}/stream?${parameters({ rate, most })}`;

@@ -46,8 +46,8 @@ function entryGroup(name) {
  * Builds the button with its menu.
  * @param {{name: string, help: string, entries: Entry[]}} options `name` stands on the button
  * @returns {{element: HTMLElement, add: (entry: Entry, at?: number) => void}} `add` puts another entry before
- *   the one at a place (a negative place counts from the end), or last; an entry of a group that is there goes
- *   to the group's end
+ *   the one at a place (a negative place counts from the end), or last; an entry of a group that is there
+ *   goes to the group's end
  */
 export function actionMenu({ name, help, entries }) {
   /** @type {HTMLElement[]} */

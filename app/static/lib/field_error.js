@@ -30,7 +30,6 @@ export function refusalOf(control) {
  * @param {HTMLInputElement} input
  * @param {string} name
  * @param {{min: number, max: number, unit?: string}} range
- * @returns {{value?: number, sentence?: string}}
  */
 export function wholeNumber(input, name, { min, max, unit = "" }) {
   const text = input.value.trim();

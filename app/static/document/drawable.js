@@ -2,7 +2,15 @@
 
 import { isSequence } from "./sequence_edits.js";
 
-/** Why a gait's timeline cannot be drawn on, or null where it can. */
+/**
+ * A gait as it is saved.
+ * @typedef {Record<string, any>} GaitDocument
+ */
+
+/**
+ * Why a gait's timeline cannot be drawn on, or null where it can.
+ * @param {GaitDocument|null|undefined} document
+ */
 export function whyNotDrawn(document) {
   if (isSequence(document)) {
     return (

@@ -1,6 +1,6 @@
 /**
- * The controls of the Optimise section: numbers that are typed, stepped with the arrow keys or dragged by their name,
- * and choices. While a number changes the document is shown changed, and one edit is made at the end.
+ * The controls of the Optimise section: numbers that are typed, stepped with the arrow keys or dragged by
+ * their name, and choices. While a number changes the document is shown changed, and one edit is made at the end.
  */
 
 import { clamp } from "../lib/clamp.js";
@@ -8,52 +8,113 @@ import { h } from "../lib/dom.js";
 import { refusalOf, wholeNumber } from "../lib/field_error.js";
 import { limitHint } from "./limit_hint.js";
 
-const PIXELS_A_STEP = 4;
+/**
+ * @typedef {import("./store.js").Store} Store
+ * @typedef {import("./edits.js").Edits} Edits
+ * @typedef {import("../document/drawable.js").GaitDocument} GaitDocument
+ */
 
+/**
+ * A number. It has `write`, or `act` for what only the server can do.
+ * @typedef {object} NumberField
+ * @property {string} label the short name
+ * @property {string} name
+ * @property {string} unit "" for none
+ * @property {number} min
+ * @property {number} max
+ * @property {number} step
+ * @property {number} decimals
+ * @property {string} help
+ * @property {(document: GaitDocument) => number|null} read
+ * @property {(document: GaitDocument, value: any) => GaitDocument} [write]
+ * @property {(value: any) => void} [act]
+ * @property {string} [empty] what no number means where none is allowed
+ * @property {number} [fallback] where stepping begins then
+ * @property {string} [unsaid] stands where the number says nothing of the document
+ * @property {boolean} [whole] whether only whole numbers will do
+ * @property {string} [limit] what the studio calls the number where it knows how far it can go
+ * @property {(value: number) => number} [fromSI] turns what the studio says into the field's unit
+ */
+
+/**
+ * @typedef {{label: string, name: string, help: string, options: string[][],
+ *   read: (document: GaitDocument) => any,
+ *   write: (document: GaitDocument, value: any) => GaitDocument}} ChoiceField
+ * @typedef {{label: string, name: string, help: string, read: (shown: any) => string,
+ *   commit: (text: string) => string|null}} TextField
+ * @typedef {ReturnType<typeof changing>} Change
+ * @typedef {{dirty: () => boolean, show: (always: boolean) => void, commit: () => void}} Text
+ * @typedef {ReturnType<typeof refusalOf>} Refusal
+ */
+
+const PIXELS_A_STEP = 4;
+/** @type {Record<string, number>} */
+const WAYS = { ArrowUp: 1, ArrowDown: -1 };
+
+/** @param {number|null} value @param {number} decimals */
 const textOf = (value, decimals) => (value === null ? "" : String(Number(value.toFixed(decimals))));
 
-/** The running change of a number: on screen at once, one edit at the end, or nothing. */
+/** @param {number|null} value @param {NumberField} field */
+const withUnit = (value, field) =>
+  value === null ? field.empty : `${textOf(value, field.decimals)} ${field.unit}`.trim();
+
+/**
+ * The running change of a number: on screen at once, one edit at the end, or nothing.
+ * @param {Store} store
+ * @param {Edits} edits
+ * @param {NumberField} field
+ * @param {ReturnType<typeof limitHint>} limit
+ */
 function changing(store, edits, field, limit) {
+  const { act, write = (document) => document } = field;
+  /** @type {number|null|undefined} */
   let value;
+
+  function end() {
+    value = undefined;
+    limit.end();
+    store.set({ gesture: null });
+  }
+
   return {
     get on() {
       return value !== undefined;
     },
+    /** @param {number|null|undefined} next */
     show(next) {
       if (value === undefined) limit.begin(edits.shown());
       value = next;
-      store.set({ gesture: { apply: (document) => (field.act ? document : field.write(document, next)) } });
+      const apply = (/** @type {GaitDocument} */ document) => (act ? document : write(document, next));
+      store.set({ gesture: { apply } });
     },
     commit() {
       if (value === undefined) return;
       const next = value;
-      value = undefined;
-      limit.end();
-      store.set({ gesture: null });
+      end();
       const before = field.read(edits.shown());
       const same = before === null || next === null ? before === next : Math.abs(before - next) < 1e-9;
       if (same) return;
-      if (field.act) field.act(next);
-      else
-        edits.edit(
-          (document) => field.write(document, next),
-          `${field.name} to ${next === null ? field.empty : `${textOf(next, field.decimals)} ${field.unit}`.trim()}`,
-        );
+      if (act) act(next);
+      else edits.edit((document) => write(document, next), `${field.name} to ${withUnit(next, field)}`);
     },
     drop() {
       if (value === undefined) return false;
-      value = undefined;
-      limit.end();
-      store.set({ gesture: null });
+      end();
       return true;
     },
   };
 }
 
+/** @param {number|null} value @param {NumberField} field */
 const isOutside = (value, { min, max }) => typeof value === "number" && (value < min || value > max);
+/** @param {NumberField} field */
 const unitOf = ({ unit }) => unit && ` ${unit}`;
 
-/** A page-wide act that the browser would take for its own undo of the text. */
+/**
+ * A page-wide act that the browser would take for its own undo of the text.
+ * @param {KeyboardEvent} event
+ * @param {Pick<Edits, "undo"|"redo">} edits
+ */
 export function historyAction({ key, ctrlKey, metaKey, shiftKey, altKey }, edits) {
   if (!(ctrlKey || metaKey) || altKey) return null;
   const letter = key.toLowerCase();
@@ -61,7 +122,12 @@ export function historyAction({ key, ctrlKey, metaKey, shiftKey, altKey }, edits
   return letter === "y" ? edits.redo : null;
 }
 
-/** What a finished text is worth: a number, null for none where none is allowed, or a sentence that refuses it. */
+/**
+ * What a finished text is worth: a number, null for none where none is allowed, or a sentence of refusal.
+ * @param {HTMLInputElement} input
+ * @param {NumberField} field
+ * @returns {{value?: number|null, sentence?: string}}
+ */
 function judged(input, field) {
   if (field.whole) return wholeNumber(input, field.name, field);
   const text = input.value.trim();
@@ -75,8 +141,24 @@ function judged(input, field) {
 }
 
 /**
- * `text` is the field's: `show(always)` writes the document's value, `dirty()` tells whether a person is typing. A text that
- * was refused stays, with its error, until it is repaired or given up.
+ * A number one step further, ten with Shift.
+ * @param {NumberField} field
+ * @param {number|null|undefined} value
+ * @param {number} way
+ */
+function stepped(field, value, way) {
+  const from = value ?? field.fallback ?? field.min;
+  return textOf(clamp(from + way * field.step, field.min, field.max), field.decimals);
+}
+
+/**
+ * Lets a person type. A text that was refused stays, with its error, until it is repaired or given up.
+ * @param {HTMLInputElement} input
+ * @param {Change} change
+ * @param {NumberField} field
+ * @param {Text} text
+ * @param {{edits: Edits, refusal: Refusal}} parts
+ * @returns {() => void} gives a text up
  */
 function mountTyping(input, change, field, text, { edits, refusal }) {
   const finish = () => {
@@ -91,9 +173,12 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
   };
   input.addEventListener("input", () => {
     const { value, sentence } = judged(input, field);
-    if (sentence) return change.drop();
+    if (sentence) {
+      change.drop();
+      return;
+    }
     refusal.setError(null);
-    return change.show(value);
+    change.show(value);
   });
   input.addEventListener("change", finish);
   input.addEventListener("blur", () => {
@@ -101,7 +186,7 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
     text.show(!refusal.hasError());
   });
   input.addEventListener("keydown", (event) => {
-    const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    const way = WAYS[event.key];
     const act = historyAction(event, edits);
     if (act) {
       event.preventDefault();
@@ -110,13 +195,7 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
       if (!typing) act();
     } else if (way && !event.ctrlKey && !event.altKey) {
       event.preventDefault();
-      const { value } = judged(input, field);
-      const next = clamp(
-        (value ?? field.fallback ?? field.min) + way * field.step * (event.shiftKey ? 10 : 1),
-        field.min,
-        field.max,
-      );
-      input.value = textOf(next, field.decimals);
+      input.value = stepped(field, judged(input, field).value, way * (event.shiftKey ? 10 : 1));
       refusal.setError(null);
       change.show(Number(input.value));
     } else if (event.key === "Enter") {
@@ -125,13 +204,21 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
       giveUp();
     }
   });
-  input.addEventListener("keyup", (event) => {
-    if (event.key === "ArrowUp" || event.key === "ArrowDown") text.commit();
+  input.addEventListener("keyup", ({ key }) => {
+    if (WAYS[key]) text.commit();
   });
   return giveUp;
 }
 
+/**
+ * @param {HTMLElement} handle
+ * @param {HTMLInputElement} input
+ * @param {Change} change
+ * @param {NumberField} field
+ * @param {() => number|null} current
+ */
 function mountDragging(handle, input, change, field, current) {
+  /** @type {{x: number, from: number, moved: boolean}|null} */
   let drag = null;
   handle.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
@@ -147,30 +234,56 @@ function mountDragging(handle, input, change, field, current) {
     input.value = textOf(next, field.decimals);
     change.show(next);
   });
-  const end = (commit) => (event) => {
+  const end = (/** @type {PointerEvent} */ event) => {
     if (!drag) return;
     const { moved } = drag;
     drag = null;
-    if (moved && commit) change.commit();
+    if (moved && event.type === "pointerup") change.commit();
     else change.drop();
     if (!moved && event.type === "pointerup") input.focus();
   };
-  handle.addEventListener("pointerup", end(true));
-  handle.addEventListener("pointercancel", end(false));
+  handle.addEventListener("pointerup", end);
+  handle.addEventListener("pointercancel", end);
   handle.addEventListener("click", (event) => event.preventDefault());
 }
 
 /**
- * A number.
- * @param {import("./store.js").Store} store
- * @param {Record<string, any>} edits
- * @param {Record<string, any>} field `label` (short), `name`, `unit`, `min`, `max`, `step`, `decimals`, `help`, `read(document)` and
- *   `write(document, value)`, or `act(value)` for what only the server can do; `empty` says what
- *   no number means where none is allowed, `fallback` where stepping begins then, `unsaid` what stands where the number
- *   says nothing of the document; `whole` where only whole numbers will do; `limit` is what the studio calls the number
- *   where it knows how far it can go, and `fromSI` turns what it says into the field's unit
+ * The text in a number's input; it follows the document while nobody types.
+ * @param {HTMLInputElement} input
+ * @param {NumberField} field
+ * @param {Change} change
+ * @param {Refusal} refusal
+ * @param {() => number|null} current the document's value
+ * @returns {Text} `show` writes that value, with `always` also over what a person types
+ */
+function textOfInput(input, field, change, refusal, current) {
+  let written = "";
+  const dirty = () => input.validity.badInput || input.value !== written;
+  const isTyped = (/** @type {string} */ shown) =>
+    input === document.activeElement && dirty() && input.value !== shown;
+  return {
+    dirty,
+    show(always) {
+      const shown = textOf(current(), field.decimals);
+      if (!always && (refusal.hasError() || isTyped(shown))) return;
+      if (input.value !== shown || input.validity.badInput) input.value = shown;
+      written = shown;
+    },
+    commit() {
+      if (!field.act) written = input.value;
+      change.commit();
+    },
+  };
+}
+
+/**
+ * Builds the control of a number.
+ * @param {Store} store
+ * @param {Edits} edits
+ * @param {NumberField} field
  */
 export function numberField(store, edits, field) {
+  const allowed = `${field.help}. Allowed: ${field.min} to ${field.max}${unitOf(field)}`;
   const input = h("input", {
     type: "number",
     step: "any",
@@ -180,42 +293,23 @@ export function numberField(store, edits, field) {
     data: field.unsaid ? { unsaid: "" } : {},
     autocomplete: "off",
     "aria-label": field.name,
-    "aria-description": `${field.help}. Allowed: ${field.min} to ${field.max}${unitOf(field)}`,
+    "aria-description": allowed,
   });
   const handle = h("span", { class: "name drag", text: field.label });
   const refusal = refusalOf(input);
   const limit = limitHint(store, field);
-  const title =
-    `${field.help}. Allowed: ${field.min} to ${field.max}${unitOf(field)}. `
-    + "Drag the name of the field to change the value";
   const element = h(
     "label",
-    { class: "field", title },
+    { class: "field", title: `${allowed}. Drag the name of the field to change the value` },
     handle,
     h("span", { class: "box", data: { unit: field.unit } }, input),
     limit.element,
     refusal.element,
   );
+  /** @type {number|null} */
   let value = null;
-  let written = "";
   const change = changing(store, edits, field, limit);
-  const text = {
-    dirty: () => input.validity.badInput || input.value !== written,
-    show(always) {
-      const shown = textOf(value, field.decimals);
-      if (
-        !always
-        && (refusal.hasError() || (input === document.activeElement && text.dirty() && input.value !== shown))
-      )
-        return;
-      if (input.value !== shown || input.validity.badInput) input.value = shown;
-      written = shown;
-    },
-    commit() {
-      if (!field.act) written = input.value;
-      change.commit();
-    },
-  };
+  const text = textOfInput(input, field, change, refusal, () => value);
   const giveUp = mountTyping(input, change, field, text, { edits, refusal });
   store.watch(
     ({ selected }) => [selected],
@@ -227,6 +321,7 @@ export function numberField(store, edits, field) {
   return {
     element,
     cancel: () => change.drop(),
+    /** @param {GaitDocument} shown */
     show(shown) {
       value = field.read(shown);
       if (!change.on) text.show(false);
@@ -235,7 +330,11 @@ export function numberField(store, edits, field) {
   };
 }
 
-/** One of several words. `read` and `write` as for numbers; `options` are [value, text] pairs. */
+/**
+ * Builds the control of one of several words.
+ * @param {Edits} edits
+ * @param {ChoiceField} field `options` are [value, text] pairs
+ */
 export function choiceField(edits, field) {
   const select = h(
     "select",
@@ -255,13 +354,18 @@ export function choiceField(edits, field) {
   );
   return {
     element,
+    /** @param {GaitDocument} shown */
     show: (shown) => {
       select.value = String(field.read(shown));
     },
   };
 }
 
-/** A text that is read when it is finished. `commit(text)` gives what was wrong with it, or null; until then it stays. */
+/**
+ * Builds the control of a text that is read when it is finished.
+ * @param {Store} store
+ * @param {TextField} field `commit` gives what is wrong with the text, which stays then, or null
+ */
 export function textField(store, field) {
   const input = h("input", { autocomplete: "off", inputmode: "numeric", "aria-label": field.name });
   const refusal = refusalOf(input);
@@ -292,6 +396,7 @@ export function textField(store, field) {
   );
   return {
     element,
+    /** @param {GaitDocument} shown */
     show(shown) {
       last = field.read(shown);
       if (input !== document.activeElement && !refusal.hasError()) write();

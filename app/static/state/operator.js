@@ -2,6 +2,8 @@
 
 import { askName } from "../lib/dialogs.js";
 
+/** @typedef {import("./store.js").Store} Store */
+
 const KEY = "footfall.operator";
 
 function remembered() {
@@ -12,6 +14,7 @@ function remembered() {
   }
 }
 
+/** @param {string} name */
 function remember(name) {
   try {
     localStorage.setItem(KEY, name);
@@ -20,18 +23,28 @@ function remember(name) {
   }
 }
 
-/** Puts the remembered name into the store. */
+/** Puts the remembered name into the store. @param {Store} store */
 export function recallOperator(store) {
   store.set({ operator: remembered() });
 }
 
-/** Resolves to the operator's name, asking where it is not known; null where the user declines. */
+/**
+ * Resolves to the operator's name, asking where it is not known; null where the user declines.
+ * @param {Store} store
+ * @param {string} [why]
+ * @returns {Promise<string|null>}
+ */
 export async function needOperator(store, why) {
   if (store.state.operator) return store.state.operator;
   return changeOperator(store, why);
 }
 
-/** Asks for another name. */
+/**
+ * Asks for another name.
+ * @param {Store} store
+ * @param {string} [why]
+ * @returns {Promise<string|null>}
+ */
 export async function changeOperator(
   store,
   why = "The studio saves your name with each approval and each run.",

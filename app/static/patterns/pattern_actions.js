@@ -9,7 +9,27 @@ import { whyNotDrawn } from "../document/drawable.js";
 import { shownDocument } from "../state/store.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
 
-const LABEL = "Complete the drawing";
+/**
+ * What the page lends to the pattern search.
+ * @typedef {{
+ *   edits: Record<string, any>,
+ *   playback: import("../preview/playback.js").Playback,
+ *   show: (id: string) => Promise<void>,
+ * }} Page
+ */
+
+/** The buttons' texts. */
+const MAKE = {
+  text: "Make gait",
+  help: "Makes a new gait with this pattern, adds the gait to the list and opens it",
+};
+const COMPLETE = {
+  text: "Complete the drawing",
+  help: "Draws the pattern into the open gait. Undo restores the old drawing",
+};
+const WALK = { text: "Walk it", help: "Shows in 3D how the robot walks with this pattern. Nothing is saved" };
+const STOP = { text: "Stop walking", help: "Shows the plan of the open gait again" };
+
 const NOTHING_NEW =
   "This pattern is the same as the drawing, so there is nothing to complete. "
   + "Choose another pattern under “Best patterns”, or free some of the fixed cells.";
@@ -36,125 +56,115 @@ function usable({ result, running, chosen, waiting }) {
   return [pattern, pattern ? null : "The search has found no pattern."];
 }
 
-/** Why drawing a pattern would not change the open gait, or null if it would. */
-const nothingToDraw = (pattern, document) =>
-  pattern?.feet.join() === document?.timeline.feet.join() ? NOTHING_NEW : null;
+/** Why the open gait cannot be completed with a pattern, or null if it can. */
+const whyNotCompleted = (pattern, document) =>
+  whyNotDrawn(document) ?? (pattern?.feet.join() === document?.timeline.feet.join() ? NOTHING_NEW : null);
 
-/**
- * Builds the buttons.
- * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} problem
- * @param {{edits: Record<string, any>, playback: import("../preview/playback.js").Playback, show: (id: string) => Promise<void>}} page
- */
-export function patternActions(store, problem, { edits, playback, show }) {
-  const make = h("button", { class: "primary", text: "Make gait" });
-  const walk = h("button", { text: "Walk it" });
-  const element = h("div", { class: "pattern-acts" }, walk, make);
+/** The chosen pattern with its problem, as the server takes it. */
+function chosenBody({ state }, problem) {
+  const document = shownDocument(state);
+  const limbs = limbsOf(problem.state, { robot: document.robot, legs: document.timeline.feet.length });
+  const [pattern] = usable(problem.state);
+  return {
+    question: bodyOf(problem.state, {
+      gait: state.selected,
+      limbs,
+      document: state.pending.length ? document : null,
+      drawing: null,
+      isFree: () => false,
+    }),
+    feet: pattern.feet,
+  };
+}
 
-  function body() {
-    const document = shownDocument(store.state);
-    const limbs = limbsOf(problem.state, { robot: document.robot, legs: document.timeline.feet.length });
-    const [pattern] = usable(problem.state);
-    return {
-      question: bodyOf(problem.state, {
-        gait: store.state.selected,
-        limbs,
-        document: store.state.pending.length ? document : null,
-        drawing: null,
-        isFree: () => false,
-      }),
-      feet: pattern.feet,
-    };
+/** The walk of the chosen pattern in 3D; `end` also ends a walk that is still being computed. */
+function patternWalk(store, problem, playback) {
+  const begin = ticket();
+  const isOn = () => Boolean(store.state.iterate?.pattern);
+
+  function end() {
+    begin();
+    if (isOn()) store.set({ iterate: null });
   }
 
-  const begin = ticket();
-  /** Ends the walk, also one that is still being computed. */
-  const leave = () => {
-    begin();
-    if (store.state.iterate?.pattern) store.set({ iterate: null });
-  };
-
-  const makeGait = attempt(async () => {
-    leave();
-    const { selected: gait } = store.state;
-    if (problem.state.mode === "drawing") {
-      const { document } = await api.patternDocument(body());
-      await edits.edit(
-        (now) => ({
-          ...now,
-          timeline: { ...now.timeline, feet: document.timeline.feet },
-          ...(document.held ? { held: document.held } : {}),
-        }),
-        LABEL,
-        { drawing: true, gait },
-      );
-      announce("The open gait now has this pattern. Undo restores the old drawing.");
-      openView("cells");
-      return;
-    }
-    const view = await api.patternGait(body());
-    await show(view.id);
-    openView("cells");
-    document.querySelector('#gaits [aria-current="true"]')?.scrollIntoView({ block: "nearest" });
-    toast(`The new gait “${view.name}” is open.${adviceFor(view.plan, problem.state)}`, { of: "studio" });
-  });
-
-  const toggleWalk = attempt(async () => {
-    if (store.state.iterate?.pattern) {
-      playback.pause();
-      leave();
-      return;
-    }
+  async function start() {
     const isOld = begin();
     const { selected } = store.state;
-    const plan = await api.patternPlan(body());
+    const plan = await api.patternPlan(chosenBody(store, problem));
     if (isOld() || store.state.selected !== selected) return;
     if (!plan.times.length)
       throw new Error(plan.refusal?.sentence ?? "No motion was found for this pattern.");
     const note = `The 3D view shows the pattern, not the open gait. ${plan.note}`;
     store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note } } });
     if (plan.live?.status === "infeasible")
-      toast("The motion in 3D breaks at least one limit. " + `${adviceText(problem.state)}`);
+      toast(`The motion in 3D breaks at least one limit. ${adviceText(problem.state)}`);
     playback.toStart();
     playback.play();
-  });
+  }
 
-  onPress(make, makeGait, (why) => toast(why));
-  onPress(walk, toggleWalk, (why) => toast(why));
+  const toggle = attempt(async () => {
+    if (!isOn()) return start();
+    playback.pause();
+    return end();
+  });
+  return { isOn, end, toggle };
+}
+
+async function completeDrawing(store, problem, edits) {
+  const { selected: gait } = store.state;
+  const { document } = await api.patternDocument(chosenBody(store, problem));
+  const apply = (now) => ({
+    ...now,
+    timeline: { ...now.timeline, feet: document.timeline.feet },
+    ...(document.held ? { held: document.held } : {}),
+  });
+  await edits.edit(apply, COMPLETE.text, { drawing: true, gait });
+  announce("The open gait now has this pattern. Undo restores the old drawing.");
+  openView("cells");
+}
+
+async function makeGait(store, problem, show) {
+  const view = await api.patternGait(chosenBody(store, problem));
+  await show(view.id);
+  openView("cells");
+  document.querySelector('#gaits [aria-current="true"]')?.scrollIntoView({ block: "nearest" });
+  toast(`The new gait “${view.name}” is open.${adviceFor(view.plan, problem.state)}`, { of: "studio" });
+}
+
+/**
+ * Builds the buttons.
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} problem
+ * @param {Page} page
+ */
+export function patternActions(store, problem, { edits, playback, show }) {
+  const [make, walk] = [h("button", { class: "primary", text: MAKE.text }), h("button", { text: WALK.text })];
+  const walking = patternWalk(store, problem, playback);
+  const isDrawing = () => problem.state.mode === "drawing";
+  const use = attempt(async () => {
+    walking.end();
+    await (isDrawing() ? completeDrawing(store, problem, edits) : makeGait(store, problem, show));
+  });
+  onPress(make, use, (why) => toast(why));
+  onPress(walk, walking.toggle, (why) => toast(why));
   // A walk shows the pattern at its start, so another pattern ends it; more of the best beside it do not.
   problem.watch(
     (state) => [state.result?.patterns[state.chosen]?.feet.join(), state.running === null, state.mode],
-    leave,
+    walking.end,
   );
-
+  const showButton = (button, { text, help }, why) => {
+    setText(button, text);
+    setAllowed(button, why, help);
+  };
   return {
-    element,
-    leave,
+    element: h("div", { class: "pattern-acts" }, walk, make),
+    leave: walking.end,
     show() {
       const [pattern, why] = usable(problem.state);
-      const isDrawing = problem.state.mode === "drawing";
-      const whyNot =
-        why
-        ?? (isDrawing
-          ? (whyNotDrawn(shownDocument(store.state)) ?? nothingToDraw(pattern, shownDocument(store.state)))
-          : null);
-      setText(make, isDrawing ? LABEL : "Make gait");
-      setAllowed(
-        make,
-        whyNot,
-        isDrawing
-          ? "Draws the pattern into the open gait. " + "Undo restores the old drawing"
-          : "Makes a new gait with this pattern, adds the gait to the list " + "and opens it",
-      );
-      const walking = Boolean(store.state.iterate?.pattern);
-      setText(walk, walking ? "Stop walking" : "Walk it");
-      setAllowed(
-        walk,
-        walking ? null : why,
-        walking
-          ? "Shows the plan of the open gait again"
-          : "Shows in 3D how the robot walks with this pattern. Nothing is saved",
-      );
+      if (isDrawing())
+        showButton(make, COMPLETE, why ?? whyNotCompleted(pattern, shownDocument(store.state)));
+      else showButton(make, MAKE, why);
+      showButton(walk, walking.isOn() ? STOP : WALK, walking.isOn() ? null : why);
     },
   };
 }

@@ -37,15 +37,25 @@ function finder(lines) {
 }
 
 /**
- * Wires pointer and keyboard.
- * @param {{problem: Record<string, any>, grid: HTMLElement, lines: () => Record<string, any>[], roving: Record<string, any>, shown: () => Record<string, any>}} parts
- * @returns {{cancel: () => boolean}} `cancel` ends a drag and takes back what it drew
+ * What is drawn in, and with which focus.
+ * @typedef {{
+ *   problem: Record<string, any>,
+ *   grid: HTMLElement,
+ *   lines: () => Record<string, any>[],
+ *   roving: Record<string, any>,
+ *   shown: () => Record<string, any>,
+ * }} Parts
  */
-export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
-  let drag = null;
+
+/**
+ * The cells as they are drawn: what an act does to them, and why it cannot.
+ * @param {Parts} parts
+ */
+function drawingOf({ problem, lines, shown }) {
   const valueOf = ([foot, sample]) => (lines()[foot].cells[sample].dataset.state === "swing" ? 0 : 1);
   const isKnown = ([foot, sample]) => lines()[foot].cells[sample].dataset.state !== "free";
   const isDrawn = (cell) => cell.join(",") in drawnCells(problem.state);
+  /** @param {number[]} cell */
   const refusal = ([foot, sample]) => REFUSALS[shown().fixed(foot, sample)] ?? null;
 
   /** What a gesture that begins at a cell does to each cell: gives it a value, or frees it (null). */
@@ -70,21 +80,33 @@ export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
   function touch(cell, keeps) {
     const why = refusal(cell);
     if (why) return toast(why);
-    const act = actFor(cell, keeps);
-    draw([cell], act);
+    draw([cell], actFor(cell, keeps));
     return announce(isDrawn(cell) ? "Fixed." : "Free.");
   }
 
-  function between([, from], [foot, to]) {
-    const [first, last] = from < to ? [from, to] : [to, from];
-    return Array.from({ length: last - first + 1 }, (_, index) => [foot, first + index]);
-  }
+  const helpOf = (cell) => refusal(cell) ?? (isDrawn(cell) ? DRAWN : FREE);
+  return { refusal, actFor, draw, touch, helpOf };
+}
+
+/** The cells of one row from one cell to another. */
+function between([, start], [foot, end]) {
+  const [first, last] = start < end ? [start, end] : [end, start];
+  return Array.from({ length: last - first + 1 }, (_, index) => [foot, first + index]);
+}
+
+/**
+ * Draws with the pointer.
+ * @param {Parts} parts
+ * @param {ReturnType<typeof drawingOf>} drawing
+ */
+function mountDragging({ problem, grid, lines, roving }, drawing) {
+  let drag = null;
 
   function begin(event) {
     const cell = cellOf(event.target);
     if (event.button !== 0 || drag || !cell) return;
     roving.move(cell).focus({ preventScroll: true });
-    const why = refusal(cell);
+    const why = drawing.refusal(cell);
     if (why) {
       toast(why);
       return;
@@ -92,20 +114,20 @@ export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
     drag = {
       pointer: event.pointerId,
       before: drawnCells(problem.state),
-      act: actFor(cell, event.shiftKey),
+      act: drawing.actFor(cell, event.shiftKey),
       last: cell,
       cellAt: finder(lines()),
     };
     grid.setPointerCapture(event.pointerId);
     event.preventDefault();
-    draw([cell], drag.act);
+    drawing.draw([cell], drag.act);
   }
 
   function move(event) {
     if (!drag || event.pointerId !== drag.pointer) return;
     const cell = drag.cellAt(event.clientX, event.clientY);
     if (cell[0] === drag.last[0] && cell[1] === drag.last[1]) return;
-    draw(cell[0] === drag.last[0] ? between(drag.last, cell) : [cell], drag.act);
+    drawing.draw(cell[0] === drag.last[0] ? between(drag.last, cell) : [cell], drag.act);
     drag.last = cell;
   }
 
@@ -116,45 +138,53 @@ export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
     return true;
   }
 
-  function press(event) {
-    const here = cellOf(event.target);
-    if (!here || event.ctrlKey || event.metaKey || event.altKey) return;
-    const [foot, sample] = here;
-    const goals = {
-      ArrowLeft: [foot, sample - 1],
-      ArrowRight: [foot, sample + 1],
-      ArrowUp: [foot - 1, sample],
-      ArrowDown: [foot + 1, sample],
-      Home: [foot, 0],
-      End: [foot, Infinity],
-      PageUp: [0, sample],
-      PageDown: [Infinity, sample],
-    };
-    if (goals[event.key]) roving.focus(goals[event.key]);
-    else if (event.key === " " || event.key === "Enter") touch(here, event.shiftKey);
-    else if (event.key.toLowerCase() === "k") touch(here, true);
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
-  }
-
-  function explain(event) {
-    const cell = cellOf(event.target);
-    if (!cell || drag) return;
-    lines()[cell[0]].cells[cell[1]].title = refusal(cell) ?? (isDrawn(cell) ? DRAWN : FREE);
-  }
-
-  const end = (event) => {
-    if (drag?.pointer === event.pointerId) drag = null;
-  };
   grid.addEventListener("pointerdown", begin);
   grid.addEventListener("pointermove", move);
-  grid.addEventListener("pointerup", end);
+  grid.addEventListener("pointerup", (event) => {
+    if (drag?.pointer === event.pointerId) drag = null;
+  });
   grid.addEventListener("pointercancel", cancel);
-  grid.addEventListener("pointerover", explain);
-  grid.addEventListener("keydown", press);
+  return { isOn: () => drag !== null, cancel };
+}
+
+function press(event, roving, touch) {
+  const here = cellOf(event.target);
+  if (!here || event.ctrlKey || event.metaKey || event.altKey) return;
+  const [foot, sample] = here;
+  const goals = {
+    ArrowLeft: [foot, sample - 1],
+    ArrowRight: [foot, sample + 1],
+    ArrowUp: [foot - 1, sample],
+    ArrowDown: [foot + 1, sample],
+    Home: [foot, 0],
+    End: [foot, Infinity],
+    PageUp: [0, sample],
+    PageDown: [Infinity, sample],
+  };
+  if (goals[event.key]) roving.focus(goals[event.key]);
+  else if (event.key === " " || event.key === "Enter") touch(here, event.shiftKey);
+  else if (event.key.toLowerCase() === "k") touch(here, true);
+  else return;
+  event.preventDefault();
+  event.stopPropagation();
+}
+
+/**
+ * Wires pointer and keyboard.
+ * @param {Parts} parts
+ * @returns {{cancel: () => boolean}} `cancel` ends a drag and takes back what it drew
+ */
+export function mountPatternDrawing(parts) {
+  const { grid, lines, roving } = parts;
+  const drawing = drawingOf(parts);
+  const dragging = mountDragging(parts, drawing);
+  grid.addEventListener("pointerover", (event) => {
+    const cell = cellOf(event.target);
+    if (cell && !dragging.isOn()) lines()[cell[0]].cells[cell[1]].title = drawing.helpOf(cell);
+  });
+  grid.addEventListener("keydown", (event) => press(event, roving, drawing.touch));
   grid.addEventListener("focusin", (event) => {
     if (cellOf(event.target)) roving.move(cellOf(event.target));
   });
-  return { cancel };
+  return { cancel: dragging.cancel };
 }

@@ -11,7 +11,7 @@ const ENTRIES = [
   {
     mode: "transition",
     text: "Transition to…",
-    help: "Searches for the footfall pattern of a transition " + "from this gait to another gait",
+    help: "Searches for the footfall pattern of a transition from this gait to another gait",
   },
   {
     mode: "limbs",
@@ -23,7 +23,7 @@ const ENTRIES = [
   {
     mode: "drawing",
     text: "Complete the drawing…",
-    help: "Keeps the locked cells of this gait's timeline " + "and searches for the other cells",
+    help: "Keeps the locked cells of this gait's timeline and searches for the other cells",
   },
 ];
 
@@ -40,7 +40,7 @@ function remembersOpen(open) {
 /**
  * Builds the entries.
  * @param {import("../state/store.js").Store} store
- * @param {{edits: Record<string, any>, playback: import("../preview/playback.js").Playback, show: (id: string) => Promise<void>, gaitTools: Record<string, any>}} page
+ * @param {import("./pattern_actions.js").Page & {gaitTools: Record<string, any>}} page
  * @returns {{cancel: () => boolean}} `cancel` ends a drag in the pattern
  */
 export function mountPatternEntry(store, page) {

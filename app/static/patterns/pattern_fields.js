@@ -73,9 +73,38 @@ function lengthField(name, help, take) {
   };
 }
 
-function check(text, title, take) {
-  const box = h("input", { type: "checkbox", on: { change: () => take(box.checked) } });
-  return { element: h("label", { class: "pattern-check", title }, box, h("span", { text })), box };
+/** The boxes, each named as the part of the problem that it sets. */
+const CHECKS = {
+  shortest: [
+    "Shortest that works",
+    "The search chooses the length. The transition gets as few samples as the rules allow",
+  ],
+  walkable: [
+    "Swings that the feet can do",
+    "Makes every swing long enough for the steps of both gaits, "
+      + "also swings at the start and end of the transition. The footfall thesis has no such rule",
+  ],
+  painted: ["Keep the painted swings", "The search keeps all swings and all locked cells of the open gait"],
+  keep: ["Keep my drawing if possible", "The search prefers patterns that are similar to the shown pattern"],
+};
+
+function check(name, take) {
+  const [text, title] = CHECKS[name];
+  const box = h("input", { type: "checkbox", on: { change: () => take({ [name]: box.checked }) } });
+  return {
+    element: h("label", { class: "pattern-check", title }, box, h("span", { text })),
+    show: (state) => {
+      box.checked = state[name];
+    },
+  };
+}
+
+/** The open gait's robot and the names of its feet, or null without a gait. */
+function openGait({ state }) {
+  const document = state.view && shownDocument(state);
+  return document
+    ? { robot: document.robot, legs: document.timeline.feet.length, roles: state.view.roles ?? [] }
+    : null;
 }
 
 /**
@@ -86,97 +115,60 @@ function check(text, title, take) {
  */
 export function patternFields(store, problem, lock) {
   let shown = null;
-  const about = () => {
-    const document = store.state.view && shownDocument(store.state);
-    return document
-      ? { robot: document.robot, legs: document.timeline.feet.length, roles: store.state.view.roles ?? [] }
-      : null;
-  };
   const choice = modes(problem);
+  const teach = h("p", { class: "teach" });
   const samples = lengthField(
     "Length",
-    "Number of samples of the transition, including its first and " + "last sample",
+    "Number of samples of the transition, including its first and last sample",
     (value) => problem.set({ samples: value }),
   );
   const cycle = lengthField("Length of a cycle", "The pattern repeats after this many samples", (value) =>
     problem.set({ cycle: value }),
   );
-  const shortest = check(
-    "Shortest that works",
-    "The search chooses the length. " + "The transition gets as few samples as the rules allow",
-    (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }),
+  const shortest = check("shortest", (change) =>
+    problem.set({ ...change, ...(change.shortest || !shown ? {} : { samples: shown.samples }) }),
   );
-  const walkable = check(
-    "Swings that the feet can do",
-    "Makes every swing long enough for the steps of "
-      + "both gaits, also swings at the start and end of the transition. "
-      + "The footfall thesis has no such rule",
-    (on) => problem.set({ walkable: on }),
-  );
-  const keep = check(
-    "Keep my drawing if possible",
-    "The search prefers patterns that are similar to the " + "shown pattern",
-    (on) => problem.set({ keep: on }),
-  );
-  const painted = check(
-    "Keep the painted swings",
-    "The search keeps all swings and all locked " + "cells of the open gait",
-    (on) => problem.set({ painted: on }),
-  );
-  const [limbs, locks] = [
-    limbChoices(problem, about),
-    limbLocks(problem, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null }),
-  ];
+  const [walkable, painted, keep] = ["walkable", "painted", "keep"].map((name) => check(name, problem.set));
+  const limbs = limbChoices(problem, () => openGait(store));
+  const locks = limbLocks(problem, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null });
   const locking = h(
     "div",
     { class: "pattern-locking" },
     h("span", { class: "quiet", text: "Locked limbs" }),
     locks.element,
   );
-  const teach = h("p", { class: "teach" });
-  const element = h(
-    "div",
-    { class: "pattern-fields" },
-    choice.element,
-    teach,
-    samples.element,
-    shortest.element,
-    walkable.element,
-    locking,
-    cycle.element,
-    limbs.element,
-    painted.element,
-    keep.element,
-  );
+  /** @type {[HTMLElement, string][]} */
+  const parts = [
+    [samples.element, "transition"],
+    [shortest.element, "transition"],
+    [walkable.element, "transition"],
+    [locking, "transition"],
+    [cycle.element, "limbs"],
+    [limbs.element, "limbs"],
+    [painted.element, "drawing"],
+  ];
   return {
-    element,
+    element: h(
+      "div",
+      { class: "pattern-fields" },
+      choice.element,
+      teach,
+      ...parts.map(([part]) => part),
+      keep.element,
+    ),
     show(now) {
       shown = now;
-      const { mode } = problem.state;
-      choice.show(problem.state);
-      setText(teach, TEACH[mode]);
-      for (const [part, its] of [
-        [samples.element, "transition"],
-        [shortest.element, "transition"],
-        [walkable.element, "transition"],
-        [locking, "transition"],
-        [cycle.element, "limbs"],
-        [limbs.element, "limbs"],
-        [painted.element, "drawing"],
-      ])
-        part.hidden = mode !== its;
-      keep.element.hidden = mode === "drawing";
-      samples.show(now?.samples && problem.state.shortest ? now.samples : problem.state.samples);
-      samples.input.disabled = problem.state.shortest;
-      cycle.show(problem.state.cycle);
-      [shortest.box.checked, walkable.box.checked, keep.box.checked, painted.box.checked] = [
-        problem.state.shortest,
-        problem.state.walkable,
-        problem.state.keep,
-        problem.state.painted,
-      ];
-      if (mode === "limbs") limbs.show();
-      if (mode === "transition" && now) locks.show({ legs: now.legs, given: now.given });
+      const { state } = problem;
+      choice.show(state);
+      setText(teach, TEACH[state.mode]);
+      for (const [part, mode] of parts) part.hidden = mode !== state.mode;
+      keep.element.hidden = state.mode === "drawing";
+      samples.show(now?.samples && state.shortest ? now.samples : state.samples);
+      samples.input.disabled = state.shortest;
+      cycle.show(state.cycle);
+      for (const one of [shortest, walkable, painted, keep]) one.show(state);
+      if (state.mode === "limbs") limbs.show();
+      if (state.mode === "transition" && now) locks.show({ legs: now.legs, given: now.given });
     },
   };
 }

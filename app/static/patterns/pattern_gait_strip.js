@@ -9,7 +9,11 @@ function stretchesOf(row, value) {
   return [...row.matchAll(new RegExp(`${value}+`, "g"))].map((match) => [match.index, match[0].length]);
 }
 
-/** A timeline's swings in their feet's colours, and what is locked or held with the hatch of that id. */
+/**
+ * A timeline's swings in their feet's colours, and what is locked or held with the hatch of that id.
+ * @param {Record<string, any>} document
+ * @param {string|null} hatch
+ */
 export function picture({ timeline, held }, hatch) {
   const { feet, locked } = timeline;
   const isHeld = (foot) => held?.start?.includes(foot + 1) && held.end?.includes(foot + 1);
@@ -52,18 +56,11 @@ export function stateText(feet, sample) {
 }
 
 const cursorHelp = (side) =>
-  `The transition ${side === "from" ? "starts" : "ends"} with the state of this `
-  + `gait at the cursor. `
+  `The transition ${side === "from" ? "starts" : "ends"} with the state of this gait at the cursor. `
   + "To move the cursor, click, drag, or press Left, Right (with Shift: ten samples), Home or End";
 
-/**
- * Builds a gait's part.
- * @param {{side: "from"|"to", name: string, help: string, choose: (gait: string) => void, move: (sample: number) => void}} options
- * @returns {{element: HTMLElement, show: (shown: {gaits: Record<string, any>[], gait: string, document: Record<string, any>|null, sample: number}) => void}}
- */
-export function patternGaitStrip({ side, name, help, choose, move }) {
-  const select = h("select", { "aria-label": name, title: help, on: { change: () => choose(select.value) } });
-  const words = h("span", { class: "quiet pattern-state" });
+/** The timeline with the cursor, which is a slider. */
+function stripParts(name, side) {
   const image = svg("svg", { preserveAspectRatio: "none", class: "pattern-picture", "aria-hidden": "true" });
   const lines = h("div", { class: "pattern-lines", "aria-hidden": "true" });
   const cursor = h("div", { class: "pattern-cursor", "aria-hidden": "true" });
@@ -84,32 +81,40 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     lines,
     cursor,
   );
-  const element = h(
+  return { strip, image, lines, cursor };
+}
+
+function lane(side, select, words, strip) {
+  const isFirst = side === "from";
+  return h(
     "div",
     { class: "pattern-lane" },
     h(
       "div",
       { class: "pattern-head" },
-      h("b", { class: "pattern-letter", text: side === "from" ? "A" : "B", "aria-hidden": "true" }),
+      h("b", { class: "pattern-letter", text: isFirst ? "A" : "B", "aria-hidden": "true" }),
       select,
       words,
     ),
     h(
       "div",
       { class: "pattern-row" },
-      h("span", { class: "quiet pattern-side", text: side === "from" ? "from here" : "to here" }),
+      h("span", { class: "quiet pattern-side", text: isFirst ? "from here" : "to here" }),
       strip,
     ),
   );
-  let [drawn, count, at, sampleTime] = [null, 1, 0, 0];
+}
 
+/** Moves the cursor with pointer and keys; `place` returns the gait's number of samples and the cursor's. */
+function mountCursor(strip, place, move) {
   const go = (sample) => {
+    const { count, at } = place();
     const next = clamp(sample, 0, count - 1);
     if (next !== at) move(next);
   };
   const sampleAt = (event) => {
     const box = strip.getBoundingClientRect();
-    return Math.floor(((event.clientX - box.left) / box.width) * count);
+    return Math.floor(((event.clientX - box.left) / box.width) * place().count);
   };
   strip.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
@@ -120,6 +125,7 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     if (strip.hasPointerCapture(event.pointerId)) go(sampleAt(event));
   });
   strip.addEventListener("keydown", (event) => {
+    const { count, at } = place();
     const far = event.shiftKey ? 10 : 1;
     const goals = {
       ArrowLeft: at - far,
@@ -136,29 +142,53 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     event.stopPropagation();
     go(goals[event.key]);
   });
+}
 
-  function options(gaits, gait) {
-    const known = [...select.options].map((option) => `${option.value} ${option.text}`).join("\n");
-    if (known !== gaits.map((one) => `${one.id} ${one.name}`).join("\n"))
-      select.replaceChildren(...gaits.map((one) => h("option", { value: one.id, text: one.name })));
-    select.value = gait;
+function showOptions(select, gaits, gait) {
+  const known = [...select.options].map((option) => `${option.value} ${option.text}`).join("\n");
+  if (known !== gaits.map((one) => `${one.id} ${one.name}`).join("\n"))
+    select.replaceChildren(...gaits.map((one) => h("option", { value: one.id, text: one.name })));
+  select.value = gait;
+}
+
+/**
+ * Builds a gait's part.
+ * @param {{
+ *   side: "from"|"to",
+ *   name: string,
+ *   help: string,
+ *   choose: (gait: string) => void,
+ *   move: (sample: number) => void,
+ * }} options
+ */
+export function patternGaitStrip({ side, name, help, choose, move }) {
+  const select = h("select", { "aria-label": name, title: help, on: { change: () => choose(select.value) } });
+  const words = h("span", { class: "quiet pattern-state" });
+  const { strip, image, lines, cursor } = stripParts(name, side);
+  const element = lane(side, select, words, strip);
+  let [drawn, count, at, sampleTime] = [null, 1, 0, 0];
+  mountCursor(strip, () => ({ count, at }), move);
+
+  function draw(document) {
+    const { feet, locked } = document.timeline;
+    const key = JSON.stringify([feet, locked, document.held]);
+    if (drawn === key) return;
+    drawn = key;
+    setAttribute(image, "viewBox", `0 0 ${count} ${feet.length}`);
+    image.replaceChildren(...picture(document, "pattern-hatch"));
+    strip.style.setProperty("--feet", feet.length);
+    strip.style.setProperty("--samples", String(count));
+    lines.hidden = count > 90;
   }
 
+  /** @param {{gaits: any[], gait: string, document: Record<string, any>|null, sample: number|null}} shown */
   function show({ gaits, gait, document, sample }) {
-    options(gaits, gait);
+    showOptions(select, gaits, gait);
     element.toggleAttribute("data-empty", !document);
     if (!document) return;
     const { feet, sample_time: step } = document.timeline;
     [count, at, sampleTime] = [feet[0].length, clamp(sample ?? 0, 0, feet[0].length - 1), step];
-    const key = JSON.stringify([feet, document.timeline.locked, document.held]);
-    if (drawn !== key) {
-      drawn = key;
-      setAttribute(image, "viewBox", `0 0 ${count} ${feet.length}`);
-      image.replaceChildren(...picture(document, "pattern-hatch"));
-      strip.style.setProperty("--feet", feet.length);
-      strip.style.setProperty("--samples", count);
-      lines.hidden = count > 90;
-    }
+    draw(document);
     cursor.style.left = `${(100 * at) / count}%`;
     cursor.style.width = `${100 / count}%`;
     const state = stateText(feet, at);

@@ -4,7 +4,10 @@ import { api } from "../api/gaits.js";
 import { shownDocument } from "../state/store.js";
 import { attempt } from "../lib/toasts.js";
 
-/** Gaits that a transition can lead from or to: of the shown gait's robot and orientation, no sequences, and none for the robot's clock. */
+/**
+ * Gaits that a transition can lead from or to: of the shown gait's robot and orientation, no sequences, and
+ * none for the robot's clock.
+ */
 export function transitionGaits({ gaits, selected }) {
   const open = gaits.find(({ id }) => id === selected);
   return open
@@ -25,8 +28,8 @@ export function timelineOf(store, problem, gait) {
 const STANDING_AT_LEAST = 3;
 
 /**
- * The sample at which a cursor stands first: in the middle of the swing that is nearest to the middle of the gait, with
- * three feet down. The first sample where there is no such swing.
+ * The sample at which a cursor stands first: in the middle of the swing that is nearest to the middle of the
+ * gait, with three feet down. The first sample where there is no such swing.
  * @param {{feet: string[]}} timeline
  * @returns {number} from 0
  */

@@ -13,10 +13,8 @@ function drawCell(cell, { foot, sample, value, fixed, changed }) {
   cell.toggleAttribute("data-locked", fixed !== null);
   setAttribute(cell, "data-fixed", fixed);
   cell.toggleAttribute("data-preview", changed);
-  cell.setAttribute(
-    "aria-label",
-    `foot ${foot + 1}, sample ${sample + 1}: ${word}${fixed ? `, ${FIXED_TEXTS[fixed]}` : ""}${changed ? ", not as drawn" : ""}`,
-  );
+  const text = [word, fixed && FIXED_TEXTS[fixed], changed && "not as drawn"].filter(Boolean).join(", ");
+  cell.setAttribute("aria-label", `foot ${foot + 1}, sample ${sample + 1}: ${text}`);
 }
 
 function drawRow(line, foot, shown, role) {
@@ -36,10 +34,7 @@ function drawRow(line, foot, shown, role) {
 /**
  * Builds the grid.
  * @param {Record<string, any>} problem of `createProblem`
- * @param {{lockLimb: (foot: number) => void}} acts what a click on a row's name does
- * @returns {{element: HTMLElement, show: (shown: Record<string, any>) => void, cancel: () => boolean}} `show` takes `legs`, `samples`,
- *   `rows` (of 1 and 0, or null while nothing is known), `fixed(foot, sample)` (why, or null), `fixedValue(foot, sample)`,
- *   `before` (rows of the drawing, to mark what differs, or null), `isLocked(foot)`, `limbHelp`, `roles`, `stale`
+ * @param {{lockLimb: (foot: number) => void}} actions what a click on a row's name does
  */
 export function patternGrid(problem, actions) {
   const element = h("div", {
@@ -52,7 +47,8 @@ export function patternGrid(problem, actions) {
       + "K fixes the present value of a cell",
   });
   let lines = [];
-  let now = { samples: 0 };
+  /** @type {Record<string, any>} */
+  let now = {};
   const roving = rovingFocus(
     () => lines,
     () => {},
@@ -86,6 +82,7 @@ export function patternGrid(problem, actions) {
   return {
     element,
     cancel: drawing.cancel,
+    /** @param {Record<string, any>} shown see `patternGridModel` */
     show(shown) {
       now = shown;
       element.hidden = shown.legs === 0;

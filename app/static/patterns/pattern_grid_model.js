@@ -27,14 +27,14 @@ function ofTransition(store, problem) {
     samples: count,
     isLocked,
     limbHelp:
-      "Click to lock or unlock this "
-      + "limb. A locked limb stays in swing or in stance during the whole transition",
+      "Click to lock or unlock this limb. "
+      + "A locked limb stays in swing or in stance during the whole transition",
     given: (foot) => given(first, second, foot),
     lockRefusal: (foot) =>
       ends(foot)[0] === ends(foot)[1]
         ? null
-        : "This limb cannot be locked, because "
-          + "it stands at one end of the transition and swings at the other end. "
+        : "This limb cannot be locked, because it stands at one end of the transition "
+          + "and swings at the other end. "
           + "Move the cursor in one of the two gaits first.",
     base: (foot, sample) =>
       sample === 0
@@ -55,7 +55,7 @@ function ofLimbs(store, problem) {
     legs: limbs.length,
     samples: problem.state.cycle,
     isLocked,
-    limbHelp: "Click to hold this limb " + "up, or to let the limb walk",
+    limbHelp: "Click to hold this limb up, or to let the limb walk",
     base: (foot) => (isLocked(foot) ? ["limb", limbs[foot] === "stands" ? "1" : "0"] : null),
   };
 }
@@ -88,7 +88,8 @@ function rowsOf({ result, running, chosen, hovered }, { legs, samples }) {
 }
 
 /**
- * What `patternGrid` shows, or null while the gaits are not known yet.
+ * What `patternGrid` shows, or null while the gaits are not known yet. `rows` are of 1 and 0, or null while
+ * nothing is known; `fixed` returns why a cell is fixed, or null; `before` are the rows of the drawing.
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} problem
  */

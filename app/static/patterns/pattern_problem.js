@@ -184,7 +184,10 @@ export function limbsOf(problem, { robot, legs }) {
   return own?.length === legs ? own : Array.from({ length: legs }, () => "walks");
 }
 
-/** The drawn cells of the shown mode. */
+/**
+ * The drawn cells of the shown mode.
+ * @param {Record<string, any>} state
+ */
 export const drawnCells = ({ cells, mode }) => cells[mode];
 
 /** The state's change that gives the shown mode other drawn cells. */
@@ -192,16 +195,24 @@ export const withCells = (state, changed) => ({ cells: { ...state.cells, [state.
 
 const tuples = (cells) => Object.entries(cells).map(([key, value]) => [...key.split(",").map(Number), value]);
 
-/** The requested length of the pattern, or null if the search chooses it. */
+/**
+ * The requested length of the pattern, or null if the search chooses it.
+ * @param {Record<string, any>} state
+ */
 export const lengthOf = ({ mode, samples, shortest, cycle }) =>
   mode === "limbs" ? cycle : mode === "transition" && !shortest ? samples : null;
 
 /**
  * The problem as the request's body.
  * @param {Record<string, any>} state of `createProblem`
- * @param {{gait: string, limbs: string[], document: Record<string, any>|null, drawing: string[]|null, isFree: Function}} page the open
- *   gait, what its limbs do, its document where an edit is under way, the rows to keep where that can be, and which cells
- *   are not given: what was drawn elsewhere waits until the pattern is longer again
+ * @param {{
+ *   gait: string,
+ *   limbs: string[],
+ *   document: Record<string, any>|null,
+ *   drawing: string[]|null,
+ *   isFree: (limb: number, sample: number) => boolean,
+ * }} page the open gait, what its limbs do, its document where an edit is under way, the rows to keep where
+ *   that can be, and which cells are not given: what was drawn beyond the end waits for a longer pattern
  */
 export function bodyOf(state, { gait, limbs, document, drawing, isFree }) {
   const { mode, from, to, count, locked, painted } = state;

@@ -1,4 +1,4 @@
-/** Shows the search: progress with bound and gap, then the best patterns, or why there is none and what would help. */
+/** Shows the search: its progress, then the best patterns, or why there is none and what would help. */
 
 import { h, onPress, setAllowed, setAttribute, setText, svg } from "../lib/dom.js";
 import { counted, fixed, seconds } from "../lib/format.js";
@@ -28,6 +28,10 @@ function scoreText({ sample_changes: changes, limb_changes: single, redrawn }, k
 const gapOf = ({ objective, bound }) =>
   objective > 0 ? fixed((100 * (objective - Math.max(bound, 0))) / objective, 0) : "0";
 
+const bestText = (running) =>
+  `best so far: ${scoreText(running.pattern, false)} · score ${fixed(running.objective, 0)}, `
+  + `lower bound ${fixed(running.bound, 0)} · gap ${gapOf(running)} %`;
+
 function progressBox(search) {
   const [text, bar] = [h("p"), h("i")];
   const useNow = h("button", { text: "Use this now" });
@@ -53,14 +57,14 @@ function progressBox(search) {
       const known = objective !== null && objective !== undefined;
       setText(
         text,
-        `Searching for ${seconds(past ?? 0)} s · `
-          + `${known ? `best so far: ${scoreText(running.pattern, false)} · score ${fixed(objective, 0)}, lower bound ${fixed(bound, 0)} · gap ${gapOf(running)} %` : "no pattern yet"}`,
+        `Searching for ${seconds(past ?? 0)} s · ${known ? bestText(running) : "no pattern yet"}`,
       );
-      bar.style.transform = `scaleX(${known && objective > 0 ? Math.min(Math.max(bound, 0) / objective, 1) : 0})`;
+      const share = known && objective > 0 ? Math.min(Math.max(bound, 0) / objective, 1) : 0;
+      bar.style.transform = `scaleX(${share})`;
       setAllowed(
         useNow,
         known ? null : "No pattern has been found yet.",
-        "Ends the search and uses the " + "best pattern found so far",
+        "Ends the search and uses the best pattern found so far",
       );
     },
   };
@@ -80,8 +84,8 @@ function longerSwings(state, explanation) {
         h("p", {
           class: "quiet",
           text:
-            "By your rule “Swing per limb, at least”, each walking limb must "
-            + `swing in ${required} samples. “Swings that the feet can do” requires at least ${needed} samples, `
+            `By your rule “Swing per limb, at least”, each walking limb must swing in ${required} samples. `
+            + `“Swings that the feet can do” requires at least ${needed} samples, `
             + "because of the step lengths of these gaits.",
         }),
       ]
@@ -134,62 +138,65 @@ const thumbnail = (feet) =>
     ...picture({ timeline: { feet } }, null),
   );
 
+function patternLine(pattern, index, kept, { choose, preview }) {
+  return h(
+    "li",
+    {
+      role: "option",
+      id: `pattern-${index}`,
+      on: { click: () => choose(index), pointerenter: () => preview(index) },
+    },
+    h("span", { class: "number", text: String(index + 1) }),
+    thumbnail(pattern.feet),
+    h("span", { text: scoreText(pattern, kept) }),
+    h("span", {
+      class: "number quiet",
+      text: fixed(pattern.score, 0),
+      title: "Score: the weighted sum of all changes. A smaller score is better",
+    }),
+  );
+}
+
+function press(event, { result, chosen }, choose) {
+  const last = (result?.patterns.length ?? 1) - 1;
+  const goals = {
+    ArrowDown: Math.min(chosen + 1, last),
+    ArrowUp: Math.max(chosen - 1, 0),
+    Home: 0,
+    End: last,
+  };
+  if (goals[event.key] === undefined) return;
+  event.preventDefault();
+  event.stopPropagation();
+  choose(goals[event.key]);
+}
+
 /** The best patterns: pointing at one, or going through them by keys, shows it; a click chooses it. */
 function alternatives(problem, preview) {
+  const choose = (chosen) => {
+    preview(null);
+    problem.set({ chosen });
+  };
   const list = h("ul", {
     class: "pattern-choices",
     role: "listbox",
     tabindex: "0",
     "aria-label": "Best patterns",
     data: { arrows: "" },
+    on: { keydown: (event) => press(event, problem.state, choose), pointerleave: () => preview(null) },
   });
   const title = h("h3", {}, "Best patterns", h("span", { text: "click a pattern to choose it" }));
   const element = h("div", { hidden: true }, title, list);
   let shown = null;
-  const choose = (chosen) => {
-    preview(null);
-    problem.set({ chosen });
-  };
-  list.addEventListener("keydown", (event) => {
-    const last = (problem.state.result?.patterns.length ?? 1) - 1;
-    const { chosen } = problem.state;
-    const goals = {
-      ArrowDown: Math.min(chosen + 1, last),
-      ArrowUp: Math.max(chosen - 1, 0),
-      Home: 0,
-      End: last,
-    };
-    if (goals[event.key] === undefined) return;
-    event.preventDefault();
-    event.stopPropagation();
-    choose(goals[event.key]);
-  });
-  list.addEventListener("pointerleave", () => preview(null));
-  const item = (pattern, index, kept) =>
-    h(
-      "li",
-      {
-        role: "option",
-        id: `pattern-${index}`,
-        on: { click: () => choose(index), pointerenter: () => preview(index) },
-      },
-      h("span", { class: "number", text: String(index + 1) }),
-      thumbnail(pattern.feet),
-      h("span", { text: scoreText(pattern, kept) }),
-      h("span", {
-        class: "number quiet",
-        text: fixed(pattern.score, 0),
-        title: "Score: the weighted sum of all changes. A smaller score is better",
-      }),
-    );
   return {
     element,
     show({ result, chosen, keep, mode }) {
       element.hidden = !result?.patterns.length;
       if (element.hidden) return;
+      const kept = keep || mode === "drawing";
       if (shown !== result)
         list.replaceChildren(
-          ...result.patterns.map((pattern, index) => item(pattern, index, keep || mode === "drawing")),
+          ...result.patterns.map((pattern, index) => patternLine(pattern, index, kept, { choose, preview })),
         );
       shown = result;
       [...list.children].forEach((one, index) =>
@@ -204,7 +211,7 @@ function alternatives(problem, preview) {
  * Builds the result's part of the panel.
  * @param {Record<string, any>} problem
  * @param {{useNow: Function, cancel: Function}} search
- * @param {(index: number|null) => void} preview shows one of the best patterns for a moment, or the chosen one again
+ * @param {(index: number|null) => void} preview shows one of the best patterns, or the chosen one again
  */
 export function patternResult(problem, search, preview) {
   const [dot, word, sentence, time] = [

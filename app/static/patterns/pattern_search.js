@@ -10,11 +10,11 @@ import { runIsOn, shownDocument } from "../state/store.js";
 import { attempt } from "../lib/toasts.js";
 
 const REST_MS = 250;
-/** After this time without news of a search the page polls it: an event is lost while the socket reconnects. */
+/** After this time without news of a search the page polls it: a reconnecting socket loses events. */
 const SILENCE_MS = 3000;
 const GONE = "The studio was started again before this search had ended. Change a value to search again.";
 
-/** What of a gait's document the search for a gait of some limbs depends on: the gait that it makes is alike in all of it. */
+/** What the search for a gait of some limbs depends on: the gait that it makes is alike in all of it. */
 const aboutLimbs = ({ robot, orientation, direction, step, options, timeline }) => ({
   robot,
   orientation,
@@ -29,29 +29,12 @@ export function shownRows({ result, running, chosen }) {
   return running?.pattern?.feet ?? result?.patterns[chosen]?.feet ?? null;
 }
 
-/**
- * Keeps the result current while the panel is open.
- * @param {import("../state/store.js").Store} store the page's
- * @param {Record<string, any>} problem of `createProblem`
- * @param {() => boolean} isOpen
- * @returns {{submit: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
- */
-export function mountSearch(store, problem, isOpen) {
-  /**
-   * Number of the newest search (null until the studio has given it), number of the search that ended last,
-   * and when the newest search began.
-   */
-  let [asked, ended, since] = [0, 0, 0];
-  /** Events that arrived before the newest search had its number. They may belong to an older search. */
-  let early = [];
-  /** Numbers of the newest problem and of the one that the server searches. */
-  let [latest, current] = [0, 0];
-  /** The best pattern comes first. The others are requested once the problem has not changed for a moment. */
-  let [timer, silence, isMore, sent] = [0, 0, false, null];
-  /** The problem submitted last, with its documents. */
-  let submitted = null;
+/** The problem as it is sent, and whether it differs from the one that was kept last. */
+function submission(store, problem) {
+  /** The problem kept last, with its documents. */
+  let kept = null;
 
-  /** The shown rows as a hint, if they have the right length. The server keeps a gait's own drawing by itself. */
+  /** The shown rows as a hint, if they have the right length. The server keeps a gait's own drawing. */
   function drawingFor() {
     const rows = problem.state.mode === "drawing" ? null : shownRows(problem.state);
     return rows?.[0].length === lengthOf(problem.state) ? rows : null;
@@ -71,65 +54,52 @@ export function mountSearch(store, problem, isOpen) {
     });
   }
 
-  const documents = () =>
-    (problem.state.mode === "transition"
-      ? [problem.state.from.gait, problem.state.to.gait]
-      : [store.state.selected]
-    )
+  function documents() {
+    const { mode, from, to } = problem.state;
+    return (mode === "transition" ? [from.gait, to.gait] : [store.state.selected])
       .map((gait) => timelineOf(store, problem, gait))
-      .map(
-        (document) =>
-          document && JSON.stringify(problem.state.mode === "limbs" ? aboutLimbs(document) : document),
-      );
+      .map((document) => document && JSON.stringify(mode === "limbs" ? aboutLimbs(document) : document));
+  }
 
   /** The problem without the gait's name where only the gait's properties matter. */
-  const submittedBody = (now) =>
-    JSON.stringify(problem.state.mode === "limbs" ? { ...now, gait: null } : now);
+  const textOf = (now) => JSON.stringify(problem.state.mode === "limbs" ? { ...now, gait: null } : now);
 
-  /** Whether the problem differs from the one submitted last. A document that is not loaded counts as the same. */
-  function isNew() {
-    const { result, waiting, error } = problem.state;
-    if (!submitted || error || (!waiting && (!result || result.status === "cancelled"))) return true;
-    return (
-      submitted.body !== submittedBody(body())
-      || documents().some(
-        (one, index) => one && submitted.documents[index] && one !== submitted.documents[index],
-      )
-    );
-  }
+  return {
+    body,
+    keep(now) {
+      kept = { text: textOf(now), documents: documents() };
+    },
+    isKept: () => kept !== null,
+    /** A document that is not loaded counts as the same. */
+    isNew() {
+      const { result, waiting, error } = problem.state;
+      if (!kept || error || (!waiting && (!result || result.status === "cancelled"))) return true;
+      return (
+        kept.text !== textOf(body())
+        || documents().some((one, index) => one && kept.documents[index] && one !== kept.documents[index])
+      );
+    },
+  };
+}
+
+/** Asks the server for one search after another; `take` gets the messages of the newest one until it ends. */
+function searchLine(take) {
+  /** Number of the newest search (null until the studio has given it), and of the search that ended last. */
+  let [asked, ended] = [0, 0];
+  /** Events that arrived before the newest search had its number. They may belong to an older search. */
+  let early = [];
+  let silence = 0;
 
   function hear(message) {
-    if (asked === null) early.push(message);
-    else if (message.id === asked && message.id !== ended) accept(message);
-  }
-
-  function accept({ id, state, progress, result, sentence }) {
-    if (state !== "running") ended = id;
+    if (asked === null) {
+      early.push(message);
+      return;
+    }
+    if (message.id !== asked || message.id === ended) return;
     clearTimeout(silence);
-    if (state === "running") {
-      silence = setTimeout(poll, SILENCE_MS, id);
-      if (!isMore) problem.set({ running: { id, ...progress }, error: null });
-      return;
-    }
-    const before = problem.state.result;
-    if (isMore) {
-      if (state === "done" && result.patterns.length && current === latest)
-        problem.set({ result: { id, ...result, seconds: before.seconds } });
-      return;
-    }
-    problem.set({
-      running: null,
-      waiting: current !== latest,
-      chosen: 0,
-      error: state === "failed" ? { sentence } : null,
-      result: state === "failed" ? before : { id, ...result },
-    });
-    measured("question to pattern", since);
-    if (result?.status === "optimal" && problem.state.count > 1 && current === latest)
-      timer = setTimeout(
-        () => offer({ body: { ...sent, count: problem.state.count }, more: true, number: latest }),
-        REST_MS,
-      );
+    if (message.state === "running") silence = setTimeout(poll, SILENCE_MS, message.id);
+    else ended = message.id;
+    take(message);
   }
 
   async function poll(id) {
@@ -142,18 +112,65 @@ export function mountSearch(store, problem, isOpen) {
     }
   }
 
-  const offer = latestOnly(async (what) => {
-    isMore = Boolean(what.more);
-    if (!isMore) [since, sent] = [what.since, what.body];
-    current = what.number;
+  async function ask(body) {
     clearTimeout(silence);
     [asked, early] = [null, []];
     try {
-      const answer = await api.patterns(what.body);
+      const answer = await api.patterns(body);
       asked = answer.id;
       [answer, ...early].forEach(hear);
     } catch (error) {
       asked = 0;
+      throw error;
+    }
+  }
+  return { hear, ask };
+}
+
+/** Searches for the newest problem only, and puts what is found into the problem's state. */
+function newestSearch(problem) {
+  /** Numbers of the newest problem and of the one that the server searches. */
+  let [latest, current] = [0, 0];
+  /** The best pattern comes first. The others are requested once the problem has not changed for a moment. */
+  let [timer, isMore, sent, since] = [0, false, null, 0];
+
+  const line = searchLine((message) => {
+    if (isMore) takeMore(message);
+    else if (message.state === "running")
+      problem.set({ running: { id: message.id, ...message.progress }, error: null });
+    else takeBest(message);
+  });
+
+  function takeMore({ id, state, result }) {
+    if (state === "done" && result.patterns.length && current === latest)
+      problem.set({ result: { id, ...result, seconds: problem.state.result.seconds } });
+  }
+
+  function takeBest({ id, state, result, sentence }) {
+    const hasFailed = state === "failed";
+    problem.set({
+      running: null,
+      waiting: current !== latest,
+      chosen: 0,
+      error: hasFailed ? { sentence } : null,
+      result: hasFailed ? problem.state.result : { id, ...result },
+    });
+    measured("question to pattern", since);
+    const { count } = problem.state;
+    if (result?.status === "optimal" && count > 1 && current === latest)
+      timer = setTimeout(
+        () => offer({ body: { ...sent, count: problem.state.count }, more: true, number: latest }),
+        REST_MS,
+      );
+  }
+
+  const offer = latestOnly(async (what) => {
+    isMore = Boolean(what.more);
+    if (!isMore) [since, sent] = [what.since, what.body];
+    current = what.number;
+    try {
+      await line.ask(what.body);
+    } catch (error) {
       if (isMore) return;
       problem.set({
         running: null,
@@ -164,36 +181,57 @@ export function mountSearch(store, problem, isOpen) {
     }
   });
 
+  return {
+    hear: line.hear,
+    /** Ends the waiting of the problem before. */
+    begin() {
+      latest += 1;
+      clearTimeout(timer);
+    },
+    search: (body) => offer({ body: { ...body, count: 1 }, since: performance.now(), number: latest }),
+  };
+}
+
+/**
+ * Keeps the result current while the panel is open.
+ * @param {import("../state/store.js").Store} store the page's
+ * @param {Record<string, any>} problem of `createProblem`
+ * @param {() => boolean} isOpen
+ * @returns {{submit: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
+ */
+export function mountSearch(store, problem, isOpen) {
+  const submitted = submission(store, problem);
+  const searching = newestSearch(problem);
+
   function submit() {
     const { view } = store.state;
     const { mode, from, to } = problem.state;
     if (!isOpen() || !view || runIsOn(store.state.robot)) return;
     if (mode === "transition" && [from, to].some(({ gait, sample }) => !gait || sample === null)) return;
-    latest += 1;
-    clearTimeout(timer);
+    searching.begin();
     problem.set({ waiting: true });
-    const now = body();
-    submitted = { body: submittedBody(now), documents: documents() };
-    offer({ body: { ...now, count: 1 }, since: performance.now(), number: latest });
+    const body = submitted.body();
+    submitted.keep(body);
+    searching.search(body);
   }
 
   /** Submits after another gait was opened or edited, unless the problem is the same. */
   const submitIfNew = () => {
-    if (isOpen() && store.state.view && isNew()) submit();
+    if (isOpen() && store.state.view && submitted.isNew()) submit();
   };
 
   problem.watch(problemParts, submit);
   problem.watch(
     ({ documents: known }) => [known],
     () => {
-      if (submitted) submitIfNew();
+      if (submitted.isKept()) submitIfNew();
     },
   );
   store.watch(({ view, pending }) => [view?.id, view?.revision, pending.length], submitIfNew);
   store.watch(
     ({ pattern }) => [pattern],
     ({ pattern }) => {
-      if (pattern) hear(pattern);
+      if (pattern) searching.hear(pattern);
     },
   );
 

@@ -1,4 +1,4 @@
-/** The pattern search: its controls in the right column, and in the lower part the gaits with the pattern between them. */
+/** The pattern search: its controls at the right, and in the lower part the gaits and the pattern. */
 
 import { byId, h, setAttribute, setInert, setText, svg } from "../lib/dom.js";
 import { counted } from "../lib/format.js";
@@ -73,7 +73,7 @@ function gaitParts(store, problem) {
     patternGaitStrip({
       side,
       name,
-      help: `The transition ` + `${side === "from" ? "starts in" : "ends in"} this gait`,
+      help: `The transition ${side === "from" ? "starts in" : "ends in"} this gait`,
       choose: (gait) => problem.set({ [side]: { gait, sample: null } }),
       move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }),
     });
@@ -92,7 +92,7 @@ function gaitParts(store, problem) {
   };
 }
 
-/** What a click on a limb's name does: in a transition it is locked to the value that it has at both ends, in a cycle held up. */
+/** What a click on a limb's name does: it locks the limb of a transition, and holds up that of a cycle. */
 function limbLocking(store, problem, shown) {
   const hold = (foot) => {
     const { robot, timeline } = shownDocument(store.state);
@@ -185,10 +185,55 @@ function drawnText(state) {
   return count ? `${counted(count, "cell")} drawn` : "click a cell to draw swing or stance";
 }
 
+function panelOf(parts, actions) {
+  return h(
+    "div",
+    { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
+    h(
+      "header",
+      { class: "inspector-head" },
+      h("h2", { text: "Pattern search" }),
+      h("p", {
+        class: "quiet",
+        text: "The search finds which feet stand at each sample. To close this panel, open the tab Cells.",
+      }),
+    ),
+    h("div", { class: "pattern-scroll" }, ...parts),
+    actions,
+  );
+}
+
+/** The panel and the lower part on the page; `setOpen` shows them or hides them. */
+function place(panel, lower) {
+  const inspector = byId("inspector");
+  const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) =>
+    inspector.querySelector(`:scope > ${part}`),
+  );
+  const setOpen = (on) => {
+    document.body.toggleAttribute("data-patterns", on);
+    setAttribute(panel, "hidden", !on);
+    setAttribute(lower, "hidden", !on);
+    // The panel lies over the step.
+    for (const part of covered) setInert(part, "patterns", on);
+  };
+  // Another view may have been opened while the style sheet was loading.
+  setOpen(false);
+  byId("chart").after(lower);
+  inspector.append(panel);
+  byId("view-patterns").setAttribute("aria-controls", "patterns");
+  return setOpen;
+}
+
+/** The problem's change when a mode is chosen: a transition starts in the shown gait. */
+function changeTo(mode, { selected: gait }, { from }) {
+  if (mode !== "transition" || !gait) return { mode };
+  return { mode, from: { gait, sample: from.gait === gait ? from.sample : null } };
+}
+
 /**
  * Builds the panel when it is first opened.
  * @param {import("../state/store.js").Store} store
- * @param {{edits: Record<string, any>, playback: import("../preview/playback.js").Playback, show: (id: string) => Promise<void>}} page
+ * @param {import("./pattern_actions.js").Page} page
  * @returns {Promise<{open: (mode: string|null) => void, close: () => void, cancel: () => boolean}>}
  */
 export async function mountPatterns(store, page) {
@@ -203,46 +248,14 @@ export async function mountPatterns(store, page) {
   patternPlayhead(store, problem, page.playback, lower.lanes);
   const fields = patternFields(store, problem, lock);
   const actions = patternActions(store, problem, page);
-  const panel = h(
-    "div",
-    { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
-    h(
-      "header",
-      { class: "inspector-head" },
-      h("h2", { text: "Pattern search" }),
-      h("p", {
-        class: "quiet",
-        text:
-          "The search finds which feet stand at each sample. " + "To close this panel, open the tab Cells.",
-      }),
-    ),
-    h(
-      "div",
-      { class: "pattern-scroll" },
-      fields.element,
-      ...patternResult(problem, search, (hovered) => problem.set({ hovered })),
-      ...patternRules(problem),
-    ),
-    actions.element,
-  );
-  const inspector = byId("inspector");
-  const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) =>
-    inspector.querySelector(`:scope > ${part}`),
-  );
+  const result = patternResult(problem, search, (hovered) => problem.set({ hovered }));
+  const panel = panelOf([fields.element, ...result, ...patternRules(problem)], actions.element);
+  await withStyles();
+  const showParts = place(panel, lower.element);
   const setOpen = (on) => {
     open = on;
-    document.body.toggleAttribute("data-patterns", on);
-    setAttribute(panel, "hidden", !on);
-    setAttribute(lower.element, "hidden", !on);
-    // The panel lies over the step.
-    for (const part of covered) setInert(part, "patterns", on);
+    showParts(on);
   };
-  await withStyles();
-  // Another view may have been opened meanwhile.
-  setOpen(false);
-  byId("chart").after(lower.element);
-  inspector.append(panel);
-  byId("view-patterns").setAttribute("aria-controls", "patterns");
 
   const render = () => {
     if (!open) return;
@@ -257,18 +270,7 @@ export async function mountPatterns(store, page) {
   return {
     open(mode) {
       setOpen(true);
-      if (mode)
-        problem.set({
-          mode,
-          ...(mode === "transition" && store.state.selected
-            ? {
-                from: {
-                  gait: store.state.selected,
-                  sample: problem.state.from.gait === store.state.selected ? problem.state.from.sample : null,
-                },
-              }
-            : {}),
-        });
+      if (mode) problem.set(changeTo(mode, store.state, problem.state));
       gaits.choose();
       search.submit();
       render();
@@ -281,10 +283,15 @@ export async function mountPatterns(store, page) {
   };
 }
 
-/** Whether a limb is in the air at an end for that one sample alone: the motion then begins or ends with it twice. */
+/** Whether a limb is in the air at an end for one sample alone: the motion then has that sample twice. */
 const isCut = (rows, end, beside) => rows.some((row) => row.at(end) === "0" && row.at(beside) === "1");
 
-/** The stretches of the motion of a transition: a lane each, its samples, and which of the lane's samples comes first. */
+/**
+ * The stretches of a transition's motion: a lane each, its samples, and which of them comes first.
+ * @param {Record<string, any>} problem
+ * @param {Record<string, any>[]} gaits
+ * @param {string[]} rows
+ */
 function stretchesOf({ from, to }, [first, second], rows) {
   const [whole, after] = [first.timeline.feet[0].length, second.timeline.feet[0].length];
   const [start, end] = [Math.min(from.sample, whole - 1), Math.min(to.sample, after - 1)];
@@ -295,7 +302,7 @@ function stretchesOf({ from, to }, [first, second], rows) {
   ];
 }
 
-/** Which lane the playhead is over, and where as a share of its width; null where the motion has other samples. */
+/** The playhead's lane, and its place as a share of the width; null where the motion has other samples. */
 function placeOf(store, problem, time) {
   const { iterate } = store.state;
   const rows = shownRows(problem.state);

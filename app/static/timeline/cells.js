@@ -1,15 +1,21 @@
-/** Cells of the footfall grid: which one an element or a place on the screen is, and which one holds the focus. */
+/** Cells of the footfall grid: which one an element or a place on the screen is, which one has the focus. */
 
 import { clamp } from "../lib/clamp.js";
 import { axisOf, columnAt } from "../state/time_axis.js";
 
-/** The nearest cell on a timeline. */
+/**
+ * The nearest cell on a timeline.
+ * @returns {[number, number]}
+ */
 export const nearestCell = ([foot, sample], feet, samples) => [
   clamp(foot, 0, feet - 1),
   clamp(sample, 0, samples - 1),
 ];
 
-/** The cell that an element belongs to, as [foot, sample], or null. */
+/**
+ * The cell that an element belongs to, as [foot, sample], or null.
+ * @returns {[number, number]|null}
+ */
 export const cellOf = (target) => {
   const cell = target.closest?.("[role=gridcell]");
   return cell

@@ -1,5 +1,5 @@
 /**
- * Cells of the timeline on the clipboard: text, a line a foot, 1 stance and 0 swing, so that any editor can hold them.
+ * Cells of the timeline on the clipboard: text, a line a foot, 1 stance and 0 swing, for any editor.
  *
  * The system's clipboard is used where the browser allows it; otherwise one of the page's own.
  */
@@ -11,7 +11,7 @@ export const textOf = (block) => block.join("\n");
 
 /**
  * Rows of 1 and 0 from text; blanks, commas, semicolons and tabs between them are passed over.
- * @returns {{block: string[]}|{reason: string}}
+ * @returns {{block?: string[], reason?: string}} one of the two
  */
 export function blockFrom(text) {
   const lines = text
@@ -22,12 +22,16 @@ export function blockFrom(text) {
   const wrong = lines.findIndex((line) => /[^01]/.test(line));
   if (wrong >= 0)
     return {
-      reason: `The clipboard has no timeline cells. Line ${wrong + 1} may contain only 1 (stance) and 0 (swing).`,
+      reason:
+        "The clipboard has no timeline cells. "
+        + `Line ${wrong + 1} may contain only 1 (stance) and 0 (swing).`,
     };
   const uneven = lines.findIndex((line) => line.length !== lines[0].length);
   if (uneven >= 0)
     return {
-      reason: `Line ${uneven + 1} of the clipboard has ${lines[uneven].length} samples, but line 1 has ${lines[0].length}. All lines must have the same length.`,
+      reason:
+        `Line ${uneven + 1} of the clipboard has ${lines[uneven].length} samples, `
+        + `but line 1 has ${lines[0].length}. All lines must have the same length.`,
     };
   return { block: lines };
 }
@@ -52,7 +56,7 @@ export async function clipboardText() {
   }
 }
 
-/** True where copy, cut and paste mean something else than the timeline: text that is marked or typed, other tables. */
+/** Whether copy, cut and paste mean something else: text that is marked or typed, other tables. */
 const isElsewhere = (event) => {
   const place = event.target instanceof Element ? event.target : document.activeElement;
   if (
@@ -66,12 +70,12 @@ const isElsewhere = (event) => {
 
 /**
  * Listens to Ctrl+C, Ctrl+X and Ctrl+V.
- * @param {{copy: () => string[]|null, cut: () => string[]|null, paste: (text: string) => void}} acts `copy` and `cut` give the
- *   block to be kept, or null where there is nothing
+ * @param {{copy: () => string[]|null, cut: () => string[]|null, paste: (text: string) => void}} actions
+ *   `copy` and `cut` give the block to be kept, or null where there is nothing
  */
 export function mountClipboard(actions) {
   for (const type of ["copy", "cut"]) {
-    document.addEventListener(type, (event) => {
+    document.addEventListener(type, (/** @type {ClipboardEvent} */ event) => {
       const block = isElsewhere(event) ? null : actions[type]();
       if (!block) return;
       own = textOf(block);

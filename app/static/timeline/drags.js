@@ -1,8 +1,8 @@
 /**
  * What a drag on the timeline does: paint, move a swing or its end, lock, select, move what is selected.
  *
- * A drag is `{to(cell), commit()}`; cells are [foot, sample], 0-based. While it lasts it shows its effect as the store's
- * `gesture`; `commit` makes it one edit.
+ * A drag is `{to(cell), commit()}`; cells are [foot, sample], 0-based. While it lasts it shows its effect as
+ * the store's `gesture`; `commit` makes it one edit.
  */
 
 import { paintCells } from "../state/edits.js";
@@ -87,7 +87,10 @@ export function moving(store, edits, start, part) {
   };
 }
 
-/** Locks a rectangle, or unlocks it where it began on a locked cell. `tap` is called where the drag stays on its cell. */
+/**
+ * Locks a rectangle, or unlocks it where it began on a locked cell. `tap` is called where the drag stays on
+ * its cell.
+ */
 export function locking(store, edits, start, tap = null) {
   const document = shownDocument(store.state);
   const locks = !isLocked(document, start);
@@ -120,7 +123,10 @@ export function selecting(selection, start, from = start) {
   return { to: (cell) => selection.between(from, cell), commit() {} };
 }
 
-/** Takes the selected cells to other samples, or a copy of them. `tap` is called where the drag stays on its cell. */
+/**
+ * Takes the selected cells to other samples, or a copy of them. `tap` is called where the drag stays on its
+ * cell.
+ */
 export function carrying(store, edits, start, { copies, tap }) {
   const document = shownDocument(store.state);
   const region = selectedRegion(store.state);
@@ -148,7 +154,8 @@ export function carrying(store, edits, start, { copies, tap }) {
       const shift = by;
       if (!touched) return tap();
       if (!shift || reason) return store.set({ selection: region });
-      const label = `${copies ? "Copy" : "Move"} ${regionText(document, region)} by ${shift > 0 ? "+" : "−"}${Math.abs(shift)}`;
+      const way = `${shift > 0 ? "+" : "−"}${Math.abs(shift)}`;
+      const label = `${copies ? "Copy" : "Move"} ${regionText(document, region)} by ${way}`;
       return edits.edit((now) => relocated(now, region, shift, copies), label, { drawing: true });
     },
     drop: () => store.set({ selection: region }),

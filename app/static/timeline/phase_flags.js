@@ -1,4 +1,4 @@
-/** Outlines around the phases of a drawing that miss a limit, each with a flag over it that says why in a few words. */
+/** Outlines around the phases of a drawing that miss a limit, each with a flag that says why. */
 
 import { missingPhases, shortWords } from "../document/missing_motion.js";
 import { h, setText } from "../lib/dom.js";

@@ -1,4 +1,4 @@
-/** The ruler over the timeline: planned seconds, the robot's seconds, loop, findings; it scrubs the playback. */
+/** The ruler over the timeline: planned seconds, robot's seconds, loop, findings; it scrubs the playback. */
 
 import { byId, h } from "../lib/dom.js";
 import { hasRobotTimes, plannedAt } from "../state/robot_seconds.js";
@@ -69,7 +69,7 @@ const heardMarks = (axis, plan) =>
 function findingMarks(axis, verdict) {
   const placeable = (verdict?.findings ?? []).filter(({ sample, foot }) => sample !== null && foot === null);
   return placeable
-    .sort((a, b) => (a.severity === "error") - (b.severity === "error"))
+    .sort((a, b) => Number(a.severity === "error") - Number(b.severity === "error"))
     .map((finding) =>
       placed(
         h("b", { class: "mark", title: finding.sentence, data: { severity: finding.severity } }),
@@ -97,7 +97,8 @@ function draw(state, playback, width, names) {
       ? [loopMark(axis, playback.loop)]
       : [];
   const ruler = byId("ruler");
-  // Without a motion its second line is free for the flags; as high as before, rows stay under the hand that draws.
+  // Without a motion its second line is free for the flags. It keeps its height, so that the rows stay
+  // under the hand that draws.
   const hasTwoLines = hasRobotTimes(plan) || hasNoMotion(plan);
   ruler.toggleAttribute("data-robot", hasTwoLines);
   // Not a rule with :has: each change under the chart would have the style of every cell found anew.

@@ -1,4 +1,4 @@
-/** Bars over the cells with each swing's mark and duration, and each foot's duty factor at the end of its row. */
+/** Bars over the cells with each swing's mark and duration, and each foot's duty factor at its row's end. */
 
 import { h, setText } from "../lib/dom.js";
 import { columnTime, placeOf } from "../state/time_axis.js";

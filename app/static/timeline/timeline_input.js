@@ -1,29 +1,20 @@
 /**
  * Pointer and keyboard of the footfall timeline. One gesture is one edit.
  *
- * A plain drag does what the chosen tool does: Paint (swings are moved, stance is painted; with Alt or the key B
- * everything is painted), Select or Lock. In every tool Shift locks, and Ctrl selects. The keyboard moves the focus,
- * with Shift it selects.
+ * A plain drag does what the chosen tool does: Paint (swings are moved, stance is painted; with Alt or the
+ * key B everything is painted), Select or Lock. In every tool Shift locks, and Ctrl selects. The keyboard
+ * moves the focus, with Shift it selects.
  */
 
-import { axisOf, columnFraction } from "../state/time_axis.js";
-import { cellFinder, cellOf, nearestCell, nextBorder, rovingFocus } from "./cells.js";
-import {
-  carrying,
-  isLocked,
-  locking,
-  lockRegion,
-  moving,
-  painting,
-  selecting,
-  reportLocked,
-} from "./drags.js";
-import { spanning, regionText } from "../document/region.js";
-import { createSelecting, isSelected } from "../state/selection.js";
+import { cellOf, nearestCell, nextBorder, rovingFocus } from "./cells.js";
+import { isLocked } from "./drags.js";
+import { mountTimelinePointer, toggleCell } from "./timeline_pointer.js";
+import { regionText } from "../document/region.js";
+import { createSelecting } from "../state/selection.js";
 import { whyNotDrawn } from "../document/drawable.js";
 import { shownDocument } from "../state/store.js";
 import { partOf } from "../document/swings.js";
-import { announce, toast } from "../lib/toasts.js";
+import { announce } from "../lib/toasts.js";
 
 const PAINTS = "Hold Alt or B and drag to paint.";
 const ELSEWHERE = "Drag with Shift to lock cells. Drag with Ctrl to select cells.";
@@ -47,218 +38,77 @@ function helpOf(tool, part, fixed) {
   );
 }
 
-/** Whether the focused cell was reached by keyboard: after a pointer gesture Space plays, and changes no cell. */
-const byKeyboard = (grid) => grid.dataset.pointed === undefined;
-
-/** Whether the key B is held. */
-function heldBrush() {
-  let held = false;
-  window.addEventListener("keydown", (event) => {
-    if (event.key.toLowerCase() === "b") held = !event.ctrlKey && !event.metaKey;
-  });
-  window.addEventListener("keyup", (event) => {
-    if (event.key.toLowerCase() === "b") held = false;
-  });
-  window.addEventListener("blur", () => {
-    held = false;
-  });
-  return () => held;
+/** Says in the title of the cell under the pointer what can be done there. */
+function explain({ store, rows }, [foot, sample]) {
+  const document = shownDocument(store.state);
+  const { cells, words } = rows()[foot];
+  const part = partOf(document.timeline.feet[foot], sample);
+  const help = whyNotDrawn(document) ?? helpOf(store.state.tool, part, isLocked(document, [foot, sample]));
+  cells[sample].title = [words[sample], help].filter(Boolean).join(" ");
 }
 
-/**
- * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
- * @param {HTMLElement} grid
- * @param {() => Array} rows the drawn rows, each with its `cells`
- * @param {(sample: number) => void} reveal brings a sample into the shown window
- */
-export function mountTimelineInput(store, edits, grid, rows, reveal) {
-  let drag = null;
-  let swallowClick = false;
-  const selection = createSelecting(store);
-  const roving = rovingFocus(rows, reveal);
-  const brush = heldBrush();
-  const document = () => shownDocument(store.state);
-  const isSwing = ([foot, sample]) => document().timeline.feet[foot][sample] === "0";
+/** Whether the focused cell was reached by keyboard: after a gesture Space plays, and changes no cell. */
+const byKeyboard = (grid) => grid.dataset.pointed === undefined;
 
-  function toggle(cell) {
-    if (isLocked(document(), cell)) reportLocked(cell);
-    else edits.paint([cell], !isSwing(cell));
-  }
+/** The cell that a key leads to, perhaps beside the timeline; null where it leads nowhere. */
+function goalOf(event, [foot, sample], { feet }) {
+  const row = feet[foot];
+  const border = event.ctrlKey || event.metaKey;
+  /** @type {Record<string, [number, number]>} */
+  const goals = {
+    ArrowLeft: [foot, border ? nextBorder(row, sample, -1) : sample - 1],
+    ArrowRight: [foot, border ? nextBorder(row, sample, 1) : sample + 1],
+    ArrowUp: [foot - 1, sample],
+    ArrowDown: [foot + 1, sample],
+    Home: [border ? 0 : foot, 0],
+    End: [border ? Infinity : foot, Infinity],
+    PageUp: [0, sample],
+    PageDown: [Infinity, sample],
+  };
+  return goals[event.key] ?? null;
+}
 
-  /** Which end of a swing is held; one of a single sample is held by the half that was touched. */
-  function partHeld([foot, sample], x) {
-    const part = partOf(document().timeline.feet[foot], sample);
-    const box = rows()[foot].cells[sample].getBoundingClientRect();
-    return part === "only" ? (x < box.left + box.width / 2 ? "first" : "last") : part;
-  }
+function extendTo({ store, selection, reveal }, cell, from) {
+  selection.extendTo(cell, from);
+  reveal(cell[1]);
+  announce(`Selected: ${regionText(shownDocument(store.state), store.state.selection)}.`);
+}
 
-  function dragOf(event, start, from) {
-    const { tool } = store.state;
-    const whyNot = whyNotDrawn(document());
-    if (whyNot)
-      return event.ctrlKey || event.metaKey || tool === "select"
-        ? selecting(selection, start)
-        : toast(whyNot);
-    if (event.shiftKey) return locking(store, edits, start, () => selection.extendTo(start, from));
-    if (event.ctrlKey || event.metaKey) return selecting(selection, start);
-    if (tool === "lock") return locking(store, edits, start);
-    if (tool === "select") {
-      const tap = () => selection.between(start, start);
-      return isSelected(store.state, start)
-        ? carrying(store, edits, start, { copies: event.altKey, tap })
-        : selecting(selection, start);
-    }
+/** What a key does that leads to no other cell; null for nothing. */
+function actOf(page, event, here) {
+  if (event.key === " " && event.shiftKey) return () => page.selection.row(here[0]);
+  if (event.ctrlKey || event.metaKey) return null;
+  const isPress = event.key === " " || event.key === "Enter";
+  return byKeyboard(page.grid) && isPress ? () => toggleCell(page, here) : null;
+}
+
+/** What a key does on a cell; null for nothing. */
+function keyAct(page, event, here) {
+  const { store, grid, selection, roving } = page;
+  const { timeline } = shownDocument(store.state);
+  const head = event.shiftKey ? (selection.head() ?? here) : here;
+  const goal = goalOf(event, head, timeline);
+  if (goal === null) return actOf(page, event, here);
+  if (event.shiftKey)
+    return () => extendTo(page, nearestCell(goal, timeline.feet.length, timeline.feet[0].length), here);
+  return () => {
     selection.clear();
-    if (isLocked(document(), start)) return reportLocked(start);
-    return !isSwing(start) || event.altKey || brush()
-      ? painting(store, edits, start)
-      : moving(store, edits, start, partHeld(start, event.clientX));
-  }
+    delete grid.dataset.pointed;
+    roving.focus(goal);
+  };
+}
 
-  function begin(event) {
-    if (event.button !== 0 || drag || !document()) return;
-    const label = event.target.closest?.("[role=rowheader]");
-    if (label) return chooseRow(Number(label.closest("[role=row]").dataset.foot) - 1, event.shiftKey);
-    const start = cellOf(event.target);
-    if (!start) return;
-    const from = roving.place();
-    roving.move(start);
-    grid.dataset.pointed = "";
-    swallowClick = true;
-    const begun = dragOf(event, start, from);
-    if (!begun) return;
-    drag = { ...begun, pointer: event.pointerId, cellAt: cellFinder(store, rows) };
-    grid.setPointerCapture(event.pointerId);
-    drag.to(start);
-  }
-
-  function move(event) {
-    if (!drag || event.pointerId !== drag.pointer) return;
-    const points = event.getCoalescedEvents?.() ?? [];
-    for (const point of points.length ? points : [event]) drag.to(drag.cellAt(point.clientX, point.clientY));
-    if (store.state.zoom) scrollAlong(drag.cellAt(event.clientX, event.clientY)[1]);
-  }
-
-  /** A drag that leaves the shown window takes it along. */
-  function scrollAlong(sample) {
-    const fraction = columnFraction(axisOf(store.state), sample);
-    if (fraction < 0 || fraction >= 1) reveal(sample);
-  }
-
-  function end(commit) {
-    if (!drag) return false;
-    const done = drag;
-    drag = null;
-    if (grid.hasPointerCapture(done.pointer)) grid.releasePointerCapture(done.pointer);
-    store.set({ gesture: null });
-    if (commit) done.commit();
-    else done.drop?.();
-    return true;
-  }
-
-  function chooseRow(foot, extends_) {
-    const [from] = selection.head() && extends_ ? roving.place() : [foot];
-    selection.row(foot, from);
-    roving.move([from, roving.place()[1]]);
-  }
-
-  function goalOf(event, [foot, sample]) {
-    const row = document().timeline.feet[foot];
-    const border = event.ctrlKey || event.metaKey;
-    const goals = {
-      ArrowLeft: [foot, border ? nextBorder(row, sample, -1) : sample - 1],
-      ArrowRight: [foot, border ? nextBorder(row, sample, 1) : sample + 1],
-      ArrowUp: [foot - 1, sample],
-      ArrowDown: [foot + 1, sample],
-      Home: [border ? 0 : foot, 0],
-      End: [border ? Infinity : foot, Infinity],
-      PageUp: [0, sample],
-      PageDown: [Infinity, sample],
-    };
-    return goals[event.key] ?? null;
-  }
-
-  function act(event, here) {
-    if (event.key === " " && event.shiftKey) return () => selection.row(here[0]);
-    if (event.ctrlKey || event.metaKey) return null;
-    return byKeyboard(grid) && (event.key === " " || event.key === "Enter") ? () => toggle(here) : null;
-  }
-
-  function press(event) {
+function mountKeyboard(page) {
+  const { grid, roving } = page;
+  grid.addEventListener("keydown", (event) => {
     const here = cellOf(event.target);
     if (!here || event.altKey) return;
-    const head = event.shiftKey ? (selection.head() ?? here) : here;
-    const goal = goalOf(event, head);
-    const does =
-      goal === null
-        ? act(event, here)
-        : event.shiftKey
-          ? () =>
-              extendTo(
-                nearestCell(goal, document().timeline.feet.length, document().timeline.feet[0].length),
-                here,
-              )
-          : () => {
-              selection.clear();
-              delete grid.dataset.pointed;
-              roving.focus(goal);
-            };
+    const does = keyAct(page, event, here);
     if (!does) return;
     does();
     event.preventDefault();
     event.stopPropagation();
-  }
-
-  function extendTo(cell, from) {
-    selection.extendTo(cell, from);
-    reveal(cell[1]);
-    announce(`Selected: ${regionText(document(), store.state.selection)}.`);
-  }
-
-  /** A click without a pointer, as assistive tools send them; a mouse click is a gesture of no length. */
-  function clickWithoutPointer(event) {
-    const here = cellOf(event.target);
-    if (here && !swallowClick)
-      ({
-        paint: toggle,
-        select: (cell) => selection.between(cell, cell),
-        lock: (cell) => lockRegion(edits, document(), spanning(cell, cell), !isLocked(document(), cell)),
-      })[store.state.tool](here);
-    swallowClick = false;
-  }
-
-  /** A double click comes from the grid, which holds the pointer; the cell under it has the focus by then. */
-  function takeSwing(event) {
-    if (
-      !event.target.closest("[role=rowheader]")
-      && (store.state.tool === "select" || event.ctrlKey || event.metaKey)
-    )
-      selection.swing(roving.place());
-  }
-
-  function explain(event) {
-    const here = cellOf(event.target);
-    if (!here || drag || !document()) return;
-    const { cells, words } = rows()[here[0]];
-    const part = partOf(document().timeline.feet[here[0]], here[1]);
-    const help = whyNotDrawn(document()) ?? helpOf(store.state.tool, part, isLocked(document(), here));
-    cells[here[1]].title = [words[here[1]], help].filter(Boolean).join(" ");
-  }
-
-  grid.addEventListener("pointerdown", begin);
-  grid.addEventListener("pointermove", move);
-  grid.addEventListener("pointerup", () => {
-    end(true);
-    setTimeout(() => {
-      swallowClick = false;
-    });
   });
-  grid.addEventListener("pointercancel", () => end(false));
-  grid.addEventListener("pointerover", explain);
-  grid.addEventListener("click", clickWithoutPointer);
-  grid.addEventListener("dblclick", takeSwing);
-  grid.addEventListener("keydown", press);
   window.addEventListener(
     "keydown",
     (event) => {
@@ -269,9 +119,27 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
   grid.addEventListener("focusin", (event) => {
     if (cellOf(event.target)) roving.move(cellOf(event.target));
   });
+}
 
+/**
+ * @param {import("../state/store.js").Store} store
+ * @param {Record<string, any>} edits
+ * @param {HTMLElement} grid
+ * @param {() => Array} rows the drawn rows, each with its `cells`
+ * @param {(sample: number) => void} reveal brings a sample into the shown window
+ */
+export function mountTimelineInput(store, edits, grid, rows, reveal) {
+  const selection = createSelecting(store);
+  const roving = rovingFocus(rows, reveal);
+  const page = { store, edits, grid, rows, reveal, selection, roving };
+  const pointer = mountTimelinePointer(page);
+  mountKeyboard(page);
+  grid.addEventListener("pointerover", (event) => {
+    const here = cellOf(event.target);
+    if (here && !pointer.isOn() && shownDocument(store.state)) explain(page, here);
+  });
   return {
-    cancelGesture: () => end(false),
+    cancelGesture: pointer.cancel,
     clearSelection: () => selection.clear(),
     selectAll: () => selection.all(),
     focused: () => roving.place(),

@@ -33,7 +33,7 @@ function plainItems(actions, selectAll) {
   return {
     copy: {
       name: "Copy",
-      help: "Copies the cells to the clipboard, as rows of 1 (stance) and 0 " + "(swing)",
+      help: "Copies the cells to the clipboard, as rows of 1 (stance) and 0 (swing)",
       act: actions.copyNow,
     },
     cut: { name: "Cut", help: "Copies the cells, then changes them to stance", act: actions.cutNow },
@@ -47,7 +47,7 @@ function plainItems(actions, selectAll) {
     all: { name: "Select all", help: "Selects all samples of all feet", act: selectAll },
     loop: {
       name: "Loop",
-      help: "Repeats the selected samples during playback. " + "Choose Loop again to end the loop",
+      help: "Repeats the selected samples during playback. Choose Loop again to end the loop",
       act: actions.loop,
     },
   };
@@ -129,7 +129,8 @@ function buildMenu({ actions, plain, choose, close }) {
 
 /**
  * The button that opens the menu.
- * @param {Record<string, any>} page `place` holds the menu, `open` a number's popover; `opened` gets what is open
+ * @param {Record<string, any>} page `place` holds the menu, `open` a number's popover;
+ *   `opened` gets what is open
  */
 export function menuButton({ store, actions, place, open, close, selectAll, opened }) {
   const button = h("button", {

@@ -72,17 +72,23 @@ function drawCell(cell, key) {
   cell.setAttribute("aria-label", name(foot, sample, swing, fixed));
 }
 
-/** Where a swing of a cycle goes on beyond the border: "out" at the end, "in" at the beginning, null elsewhere. */
+/** Where a swing of a cycle crosses the border: "out" at the end, "in" at the beginning, null elsewhere. */
 function wrapsOf(steps, sample, periodic) {
   if (!periodic || steps[0] !== "0" || steps.at(-1) !== "0") return null;
   return sample === steps.length - 1 ? "out" : sample === 0 ? "in" : null;
 }
 
+/** Whether a preview changes a cell; `before` is null without one. */
+const isChanged = (before, { steps, locked }, sample) =>
+  before !== null
+  && (before.steps[sample] !== steps[sample]
+    || (before.locked?.[sample] ?? "0") !== (locked?.[sample] ?? "0"));
+
 /**
  * Draws a foot's row.
  * @param {Record<string, any>} line of `buildRow`
- * @param {Record<string, any>} what `foot`, `steps` and `locked` (rows of 1 and 0), `before` (the same two before a preview, or null),
- *   `findings` and `lacks` by "foot,sample", `periodic`, `role`
+ * @param {Record<string, any>} what `foot`, `steps` and `locked` (rows of 1 and 0), `before` (the same two
+ *   before a preview, or null), `findings` and `lacks` by "foot,sample", `periodic`, `role`
  */
 export function drawRow(line, { foot, steps, locked, before, findings, lacks, periodic, role }) {
   setText(line.role, role);
@@ -93,12 +99,10 @@ export function drawRow(line, { foot, steps, locked, before, findings, lacks, pe
     const fixed = locked?.[sample] === "1";
     const [finding, lack] = [findings.get(`${foot},${sample}`), lacks.get(`${foot},${sample}`)];
     const part = partOf(steps, sample);
-    const preview =
-      before !== null
-      && (before.steps[sample] !== steps[sample]
-        || (before.locked?.[sample] ?? "0") !== (locked?.[sample] ?? "0"));
+    const preview = isChanged(before, { steps, locked }, sample);
     const wraps = wrapsOf(steps, sample, periodic);
-    const key = `${part}${fixed}${preview}${wraps}${finding?.sentence ?? ""}${lack ? lack.tone + lack.sentence : ""}`;
+    const why = `${finding?.sentence ?? ""}${lack ? lack.tone + lack.sentence : ""}`;
+    const key = `${part}${fixed}${preview}${wraps}${why}`;
     if (line.drawn[sample] === key) continue;
     line.drawn[sample] = key;
     line.words[sample] = [finding?.sentence, lack?.sentence].filter(Boolean).join(" ");

@@ -1,4 +1,4 @@
-/** The tool row of the timeline: what a drag does, the operations on the selection with their preview, and the zoom. */
+/** The tool row of the timeline: what a drag does, operations with their preview, and the zoom. */
 
 import { byId, h, onPress, setAllowed, setAttribute } from "../lib/dom.js";
 import { openAmount } from "./timeline_amount.js";
@@ -16,7 +16,8 @@ const TOOLS = {
   select: [
     "Select",
     "Select: drag to select cells, or double-click to select a swing. "
-      + "Drag selected cells to move them, or with Alt to copy them. With every tool, Ctrl+drag selects cells",
+      + "Drag selected cells to move them, or with Alt to copy them. "
+      + "With every tool, Ctrl+drag selects cells",
   ],
   lock: [
     "Lock",
@@ -114,7 +115,7 @@ export function mountTools(store, actions, zoom, selectAll) {
   };
   const open = (id, anchor) => {
     close();
-    popover = openAmount({ store, actions, id, place, anchor, close });
+    popover = openAmount({ actions, id, place, anchor, close });
   };
   const menu = menuButton({
     store,
@@ -137,7 +138,8 @@ export function mountTools(store, actions, zoom, selectAll) {
   document.addEventListener(
     "pointerdown",
     (event) => {
-      if (popover && !place.contains(event.target) && !event.target.closest?.("#chart")) close();
+      const target = /** @type {Element} */ (event.target);
+      if (popover && !place.contains(target) && !target.closest?.("#chart")) close();
     },
     true,
   );

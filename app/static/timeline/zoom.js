@@ -1,7 +1,8 @@
 /**
  * The shown window of the time axis: closer, further, along, and all of it.
  *
- * The window is the store's field `zoom` ({first, shown} in columns, null for all); `axisOf` keeps it on the timeline.
+ * The window is the store's field `zoom` ({first, shown} in columns, null for all); `axisOf` keeps it on
+ * the timeline.
  */
 
 import { clamp } from "../lib/clamp.js";
@@ -68,7 +69,10 @@ function mountWheel(chart, zoom, store) {
   return fractionOf;
 }
 
-/** Two fingers: their distance is the zoom, their middle takes the window along. `began` ends what one finger has begun. */
+/**
+ * Two fingers: their distance is the zoom, their middle takes the window along. `began` ends what one finger
+ * has begun.
+ */
 function mountPinch(chart, zoom, { fractionOf, shownColumns, began }) {
   const fingers = new Map();
   const spread = () => {
@@ -159,7 +163,7 @@ export function mountZoom(store, playback, zoom, endGesture) {
   const fractionOf = mountWheel(chart, zoom, store);
   mountPinch(chart, zoom, { fractionOf, shownColumns: () => axisOf(store.state).shown, began: endGesture });
   mountBar(chart, zoom, store);
-  playback.addEventListener("time", ({ detail }) => {
+  playback.addEventListener("time", (/** @type {CustomEvent} */ { detail }) => {
     if (store.state.zoom && detail.cause !== "plan") zoom.follow(detail.time);
   });
 }

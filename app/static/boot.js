@@ -10,7 +10,7 @@ import { report } from "./lib/toasts.js";
 /** A tab in the background is not painted, and a studio that has only just started still reads its files. */
 const LONGEST_LIST_MS = 300;
 
-/** The list that comes with the page, which names it as a preload: the greeting has to wait for a socket and brings the same. */
+/** The list that comes with the page, as a preload: the greeting waits for a socket and brings the same. */
 async function listEarly(store) {
   try {
     const { gaits } = await (await fetch("/api/gaits")).json();

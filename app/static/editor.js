@@ -62,7 +62,7 @@ function mountEditor(store, edits, playback) {
   return { timeline, actions, zoom, tools };
 }
 
-/** Builds the other panels once what is seen first has been painted; what they do on Escape comes into what this gives back. */
+/** Builds the other panels once what is seen first is painted; then its result has what they do on Escape. */
 function panelsAfterPaint(page) {
   const escapes = {};
   const paintedOrHidden = Promise.race([
@@ -79,6 +79,49 @@ function panelsAfterPaint(page) {
   return escapes;
 }
 
+/** Whoever is at the page is named with what is asked of the studio. */
+function followOperator(store) {
+  recallOperator(store);
+  store.watch(
+    ({ operator }) => [operator],
+    ({ operator }) => nameAuthor(operator),
+  );
+}
+
+/** What Escape ends; each is asked in turn, and returns whether it did something. */
+const escapesOf = ({ patterns, panels, timeline, tools, optimise }) => [
+  patterns.cancel,
+  () => panels.segments?.(),
+  timeline.cancelGesture,
+  () => panels.sequence?.(),
+  tools.close,
+  optimise.cancel,
+  () => panels.countdown?.(),
+  menuIsOpen,
+  () => panels.runs?.(),
+  timeline.clearSelection,
+];
+
+/** During a run the preview stands where the robot is, to the end, unless somebody plays the plan. */
+function followRobot(store, playback) {
+  let followed = null;
+  store.watch(
+    ({ robot, view }) => [robot?.run?.plan_time, robot?.run?.phase, view?.plan],
+    ({ robot, view }) => {
+      const run = robot?.run;
+      const time = run && (run.phase === "streaming" || run.id === followed) ? robotTime(robot, view) : null;
+      followed = run?.phase === "streaming" ? run.id : null;
+      if (time !== null && !playback.playing) playback.setTime(time);
+    },
+  );
+  store.watch(
+    ({ robot }) => [planIsOn(robot)],
+    ({ robot }) => {
+      if (planIsOn(robot)) openStep("run");
+    },
+  );
+}
+
 /** Builds the parts that are seen first over a store that may have been filled already. */
 export function start(store) {
   const playback = new Playback();
@@ -86,13 +129,9 @@ export function start(store) {
   window.addEventListener("beforeunload", (event) => {
     if (edits.areUnsent()) event.preventDefault();
   });
-  recallOperator(store);
+  followOperator(store);
   mountDecimalComma();
   mountCopiedTables();
-  store.watch(
-    ({ operator }) => [operator],
-    ({ operator }) => nameAuthor(operator),
-  );
   mountWorkedPlan(store);
   mountSteps(store);
   mountVerdict(store);
@@ -102,7 +141,7 @@ export function start(store) {
   mountStorageNotice(store);
   mountFileNotice(store, edits);
   const gaitTools = mountGaitTools(store, edits, (id) => selectGait(store, id));
-  mountJobs(store);
+  mountJobs(store, (id) => selectGait(store, id));
   const { timeline, actions, zoom, tools } = mountEditor(store, edits, playback);
   mountPlayback(store, playback, mountPlots(store), actions.loop);
   mountSplitter();
@@ -130,39 +169,11 @@ export function start(store) {
     timeline,
     actions,
     zoom,
-    escapes: [
-      patterns.cancel,
-      () => panels.segments?.(),
-      timeline.cancelGesture,
-      () => panels.sequence?.(),
-      tools.close,
-      optimise.cancel,
-      () => panels.countdown?.(),
-      menuIsOpen,
-      () => panels.runs?.(),
-      timeline.clearSelection,
-    ],
+    escapes: escapesOf({ patterns, panels, timeline, tools, optimise }),
   });
-
-  // During a run the preview stands where the robot is, to the end, unless somebody plays the plan.
-  let followed = null;
-  store.watch(
-    ({ robot, view }) => [robot?.run?.plan_time, robot?.run?.phase, view?.plan],
-    ({ robot, view }) => {
-      const run = robot?.run;
-      const time = run && (run.phase === "streaming" || run.id === followed) ? robotTime(robot, view) : null;
-      followed = run?.phase === "streaming" ? run.id : null;
-      if (time !== null && !playback.playing) playback.setTime(time);
-    },
-  );
+  followRobot(store, playback);
   store.watch(
     ({ selected, view }) => [selected, view?.revision],
     () => clearRefusals(),
-  );
-  store.watch(
-    ({ robot }) => [planIsOn(robot)],
-    ({ robot }) => {
-      if (planIsOn(robot)) openStep("run");
-    },
   );
 }

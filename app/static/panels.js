@@ -17,7 +17,7 @@ import { openStep } from "./steps/steps.js";
 import { selectGait } from "./shell/gait_list.js";
 import { mountVersions } from "./shell/versions.js";
 
-/** The dialog for the fastest gait, loaded when it is first opened: from the menu New, and from a search in Jobs. */
+/** The dialog for the fastest gait, loaded when it is first opened: from the menu New and from Jobs. */
 function mountFastest(store, gaitTools) {
   const open = attempt(async (job = null) => {
     const { askFastest } = await import("./fastest/fastest.js");
@@ -61,8 +61,10 @@ function mountAtlases(store) {
 
 /**
  * Builds them.
- * @param {{store: Record<string, any>, edits: Record<string, any>, playback: import("./preview/playback.js").Playback, goTo: Function, gaitTools: Record<string, any>}} page
- * @returns {{segments: () => boolean, sequence: () => boolean, countdown: () => boolean, runs: () => boolean}} what each does on Escape; true
+ * @param {{store: import("./state/store.js").Store, edits: Record<string, any>,
+ *   playback: import("./preview/playback.js").Playback, goTo: Function,
+ *   gaitTools: ReturnType<typeof import("./shell/gait_menu.js").mountGaitTools>}} page
+ * @returns {Record<"segments"|"sequence"|"countdown"|"runs", () => boolean>} what each does on Escape; true
  *   where it did something
  */
 export function mountPanels({ store, edits, playback, goTo, gaitTools }) {

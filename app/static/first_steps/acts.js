@@ -1,4 +1,4 @@
-/** The four acts of the first steps: title, sentence, the control to use, and the sign that an act was done. */
+/** The four acts of the first steps: title, sentence, the control to use, and the sign that it was done. */
 
 import { byId } from "../lib/dom.js";
 import { hasNoMotion, ownPlan, planIsOn } from "../state/store.js";
@@ -14,7 +14,7 @@ const REAL =
   + "To try this exercise with an emulated robot, start the studio with the option --robot emulator.";
 const STEP_LABEL = /^(Step|Goal) to /;
 
-/** Whether a gait is drawn: not for the robot's clock, nor made of segments or parts. Only such gaits get remedies. */
+/** Whether a gait is drawn: not for the robot's clock, not of segments or parts. Only then it gets remedies. */
 const isDrawn = ({ poses, segment_table: table, sequence }) => !poses && !table && !sequence?.length;
 
 /** The step Design with its fields in sight. */
@@ -23,12 +23,13 @@ function stepField() {
   return byId("optimise").querySelector('input[aria-label="Step"]');
 }
 
-function remedyPlace({ view, ...state }) {
+function remedyPlace(state) {
+  const { view } = state;
   if (!view || !isDrawn(view.document)) {
     openDrawer("gaits");
     return lineInList(DRAWN);
   }
-  if (!hasNoMotion(ownPlan({ view, ...state }))) return stepField();
+  if (!hasNoMotion(ownPlan(state))) return stepField();
   openStep("design");
   return byId("optimise").querySelector(".remedy button") ?? stepField();
 }
@@ -94,7 +95,7 @@ export const ACTS = [
  * @param {(key: string) => void} done
  */
 export function watchActs(store, playback, done) {
-  playback.addEventListener("state", ({ detail }) => {
+  playback.addEventListener("state", (/** @type {CustomEvent} */ { detail }) => {
     if (detail.playing) done("play");
   });
   let offered = [];

@@ -1,8 +1,9 @@
 /**
  * The card First steps at the top of the inspector: four acts that tick themselves when they are done.
  *
- * It opens by itself where no gait of the data folder was edited and no run was made, and stays until it is closed. The
- * browser keeps which acts are done and whether the card is closed. Help (?) opens it again. It takes no focus by itself.
+ * It opens by itself where no gait of the data folder was edited and no run was made, and stays until it is
+ * closed. The browser keeps which acts are done and whether the card is closed. Help (?) opens it again. It
+ * takes no focus by itself.
  */
 
 import { byId, h, icon, setAttribute, setText } from "../lib/dom.js";
@@ -12,8 +13,7 @@ import { planIsOn } from "../state/store.js";
 import { ACTS, showPlace, watchActs } from "./acts.js";
 
 const KEY = "first-steps";
-const ALL_DONE =
-  "You have done all four exercises. " + "To see this card again, press ? and choose First steps.";
+const ALL_DONE = "You have done all four exercises. To see this card again, press ? and choose First steps.";
 
 /** Whether nothing was made in this data folder yet: no gait, no edit, no job and no run. */
 async function isFirstRun({ gaits, jobs }) {
@@ -56,6 +56,36 @@ function actItem(act, { store, opened }) {
   };
 }
 
+const closeButton = () =>
+  h(
+    "button",
+    {
+      class: "plain icon-only",
+      type: "button",
+      "aria-label": "Close first steps",
+      title: "Close this card. To see the card again, press ? and choose First steps",
+    },
+    icon("close"),
+  );
+
+/** Calls `begin` once the studio has greeted the page, where nothing was made in its data folder yet. */
+function onFirstRun(store, begin) {
+  let isAsked = false;
+  store.watch(
+    ({ greeted }) => [greeted],
+    (state) => {
+      if (!state.greeted || isAsked) return;
+      isAsked = true;
+      isFirstRun(state).then(
+        (isFirst) => {
+          if (isFirst) begin();
+        },
+        () => {},
+      );
+    },
+  );
+}
+
 /**
  * Builds the card.
  * @param {import("../state/store.js").Store} store
@@ -79,16 +109,7 @@ export function mountFirstSteps(store, playback) {
 
   const count = h("span", { class: "quiet", role: "status" });
   const end = h("p", { class: "act-body", text: ALL_DONE });
-  const close = h(
-    "button",
-    {
-      class: "plain icon-only",
-      type: "button",
-      "aria-label": "Close first steps",
-      title: "Close this card. To see the card again, press ? and choose First steps",
-    },
-    icon("close"),
-  );
+  const close = closeButton();
   const items = new Map(ACTS.map((act) => [act.key, actItem(act, { store, opened: open })]));
   card.append(
     h("div", { class: "first-steps-head" }, h("h3", { text: "First steps" }), count, close),
@@ -130,18 +151,7 @@ export function mountFirstSteps(store, playback) {
   opened = firstToDo();
   store.watch(({ view, robot }) => [view?.document, robot?.emulated, planIsOn(robot)], show);
   if (kept.begun || kept.closed) return;
-  let isAsked = false;
-  store.watch(
-    ({ greeted }) => [greeted],
-    ({ greeted, ...state }) => {
-      if (!greeted || isAsked) return;
-      isAsked = true;
-      isFirstRun(state).then(
-        (isFirst) => {
-          if (isFirst && !kept.begun) begin();
-        },
-        () => {},
-      );
-    },
-  );
+  onFirstRun(store, () => {
+    if (!kept.begun) begin();
+  });
 }

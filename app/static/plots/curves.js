@@ -39,7 +39,8 @@ export function ticksOf(low, high, most) {
 
 /**
  * Horizontal places of a plan's samples in the drawing.
- * @returns {{x: Float64Array, first: number, last: number}} `first` to `last`: those in view and one beyond each end
+ * @returns {{x: Float64Array, first: number, last: number}}
+ *   `first` to `last`: those in view and one beyond each end
  */
 export function acrossOf(axis, times) {
   const x = Float64Array.from(times, (time) => fractionAt(axis, time) * WIDTH);

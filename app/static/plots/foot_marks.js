@@ -29,7 +29,8 @@ const cornersAt = (foot, x, y, r) =>
 export function footMark(foot, x, y, fill, r = 4.5) {
   const corners = cornersAt(foot, x, y, r);
   if (!corners) return `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${r}" fill="${fill}"/>`;
-  return `<polygon points="${corners.map((at) => at.map((value) => value.toFixed(1)).join(",")).join(" ")}" fill="${fill}"/>`;
+  const points = corners.map((at) => at.map((value) => value.toFixed(1)).join(",")).join(" ");
+  return `<polygon points="${points}" fill="${fill}"/>`;
 }
 
 /** Fills a foot's mark on a canvas. */

@@ -3,7 +3,7 @@
 import { acrossOf, pathOf } from "./curves.js";
 import { simulationOver, traceOf } from "../state/simulation.js";
 
-/** Strips with measured curves: the field of the run, and its values per foot in a row (0: one value for the body). */
+/** Strips with measured curves: the field of the run, and its values a foot (0: one for the body). */
 const OVER = {
   strokes: { of: "measured_mm", aFoot: 3 },
   heights: { of: "foot_heights_mm", aFoot: 1 },
@@ -13,7 +13,7 @@ const OVER = {
 /** Simulated curves have long dashes; measured ones are solid, planned ones dotted. */
 const SIMULATED_DASH = [8, 3];
 
-/** A run's telemetry, split into iterations of the plan: in each, the plan's times rise, with the values measured then. */
+/** A run's telemetry as iterations of the plan: rising times of the plan, with the values measured then. */
 function iterations({ plan_times: times, laps }, values) {
   const byLap = new Map();
   times.forEach((time, index) => {
@@ -64,7 +64,10 @@ export function measuredRange({ laps }) {
   );
 }
 
-/** One curve for each foot, as `stripCanvas` takes them; `scaleFor(foot)` returns the scale of a foot. */
+/**
+ * One curve for each foot, as `stripCanvas` takes them; `scaleFor(foot)` returns the scale of a foot.
+ * @param {Record<string, any>} over of `oversOf`
+ */
 export function measuredCurves({ laps, aFoot, dash }, axis, scaleFor) {
   const each = aFoot || 1;
   const feet = Math.ceil((laps[0]?.rows[0].length ?? 0) / each);

@@ -62,8 +62,8 @@ export function plotCard(place) {
   return {
     /**
      * @param {{clientX: number, clientY: number}} event of the pointer
-     * @param {Record<string, any>} values `time`, `robotTime` (null for none), `roles`, `lifts` and `strokes` (mm; null for none),
-     *   `margin` (mm), `nearest` ({foot, motor} under the pointer) and `note`
+     * @param {Record<string, any>} values `time`, `robotTime` (null for none), `roles`, `lifts` and `strokes`
+     *   (mm; null for none), `margin` (mm), `nearest` ({foot, motor} under the pointer) and `note`
      */
     show(event, { time: seconds, robotTime, roles, lifts, strokes, margin: room, nearest, note: words }) {
       fit(roles);

@@ -34,9 +34,11 @@ const escaped = (text) =>
     (mark) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[mark],
   );
 const text = (x, y, words, { anchor = "start", fill = INK.text, size = 12, weight = 400 } = {}) =>
-  `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" fill="${fill}" font-size="${size}" font-weight="${weight}">${escaped(words)}</text>`;
+  `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" fill="${fill}" `
+  + `font-size="${size}" font-weight="${weight}">${escaped(words)}</text>`;
 const rule = (x1, y1, x2, y2, stroke, dash = "") =>
-  `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" stroke="${stroke}"${dash && ` stroke-dasharray="${dash}"`}/>`;
+  `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" `
+  + `stroke="${stroke}"${dash && ` stroke-dasharray="${dash}"`}/>`;
 
 function axisLabels(axis, width, bottom) {
   const every = labelEvery(axis, width);
@@ -59,10 +61,18 @@ function axisLabels(axis, width, bottom) {
 
 /** The curves as a drawing that is stretched over the plot; lines keep their thickness. */
 function curveLayer({ curves }, width, height, colour) {
-  const path = ({ d, tone, width: line, dash, offset = 0 }) =>
-    d
-    && `<path d="${d}" fill="none" stroke="${colour(tone)}" stroke-width="${line}" vector-effect="non-scaling-stroke"${dash?.length ? ` stroke-dasharray="${dash.join(" ")}" stroke-dashoffset="${offset}"` : ""}/>`;
-  return `<svg x="${SIZE.left}" y="${SIZE.top}" width="${width}" height="${height}" viewBox="0 0 ${WIDTH} ${HEIGHT}" preserveAspectRatio="none">${curves.map(path).join("")}</svg>`;
+  const path = ({ d, tone, width: line, dash, offset = 0 }) => {
+    if (!d) return d;
+    const dashes = dash?.length ? ` stroke-dasharray="${dash.join(" ")}" stroke-dashoffset="${offset}"` : "";
+    return (
+      `<path d="${d}" fill="none" stroke="${colour(tone)}" stroke-width="${line}" `
+      + `vector-effect="non-scaling-stroke"${dashes}/>`
+    );
+  };
+  return (
+    `<svg x="${SIZE.left}" y="${SIZE.top}" width="${width}" height="${height}" `
+    + `viewBox="0 0 ${WIDTH} ${HEIGHT}" preserveAspectRatio="none">${curves.map(path).join("")}</svg>`
+  );
 }
 
 function legend(names) {
@@ -76,6 +86,31 @@ function legend(names) {
     .join("");
 }
 
+/** Marks of the feet: beside their bands, else at the peaks of their curves. */
+function feetMarks({ bands, peaks }, { place, width, footColour }) {
+  const { left } = SIZE;
+  if (bands.length <= 1)
+    return peaks.map(({ foot, x, y }) =>
+      footMark(foot, left + (x / WIDTH) * width, place(y) - 8, footColour(foot + 1)),
+    );
+  return bands.map(({ foot, top, bottom }) => {
+    const middle = place((top + bottom) / 2);
+    return (
+      footMark(foot, left + 8, middle, footColour(foot + 1))
+      + text(left + 16, middle + 4, foot + 1, { size: 11 })
+    );
+  });
+}
+
+/** The row below the plot that names the feet. */
+const feetKey = (feet, bottom, footColour) =>
+  Array.from({ length: feet }, (_, foot) => {
+    const x = SIZE.left + 12 + foot * 34;
+    return (
+      footMark(foot, x, bottom + 34, footColour(foot + 1)) + text(x + 9, bottom + 38, foot + 1, { size: 11 })
+    );
+  });
+
 /** The plot as SVG text. */
 export function plotSvg({ kind, picture, axis, overs, grey, isUnder, gait, feet }) {
   const { width: whole, left, right, top, bottom: foot } = SIZE;
@@ -85,27 +120,8 @@ export function plotSvg({ kind, picture, axis, overs, grey, isUnder, gait, feet 
   const footColour = footColours();
   const colour = (tone) => INK[tone] ?? footColour(tone);
   const { drawing } = picture;
-  const marks =
-    picture.bands.length > 1
-      ? picture.bands.map(
-          ({ foot: one, top: from, bottom: to }) =>
-            footMark(one, left + 8, place((from + to) / 2), footColour(one + 1))
-            + text(left + 16, place((from + to) / 2) + 4, one + 1, { size: 11 }),
-        )
-      : picture.peaks.map(({ foot: one, x, y }) =>
-          footMark(one, left + (x / WIDTH) * width, place(y) - 8, footColour(one + 1)),
-        );
-  const key =
-    feet > 1 && kind.key !== "margin"
-      ? Array.from(
-          { length: feet },
-          (_, one) =>
-            footMark(one, left + 12 + one * 34, bottom + 34, footColour(one + 1))
-            + text(left + 21 + one * 34, bottom + 38, one + 1, { size: 11 }),
-        )
-      : [];
   const parts = [
-    text(left, 20, `${kind.title}`, { weight: 600, size: 14 }),
+    text(left, 20, kind.title, { weight: 600, size: 14 }),
     text(left, 36, gait, { fill: INK.quiet }),
     legend(lineNames(grey, overs, isUnder)),
     ...drawing.grid.map((y) => rule(left, place(y), left + width, place(y), INK.grid)),
@@ -125,13 +141,19 @@ export function plotSvg({ kind, picture, axis, overs, grey, isUnder, gait, feet 
       ),
     ),
     curveLayer(drawing, width, height, colour),
-    ...marks,
+    ...feetMarks(picture, { place, width, footColour }),
     rule(left, bottom, left + width, bottom, INK.border),
     ...axisLabels(axis, width, bottom),
     text(left + width, bottom + 36, "plan, s", { anchor: "end", fill: INK.quiet, size: 11 }),
-    ...key,
+    ...(feet > 1 && kind.key !== "margin" ? feetKey(feet, bottom, footColour) : []),
   ];
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${whole}" height="${bottom + foot}" viewBox="0 0 ${whole} ${bottom + foot}" font-family="system-ui, sans-serif"><title>${escaped(`${kind.name} of ${gait}`)}</title><rect width="100%" height="100%" fill="${SHEET}"/>${parts.join("")}</svg>`;
+  const tall = bottom + foot;
+  return (
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${whole}" height="${tall}" `
+    + `viewBox="0 0 ${whole} ${tall}" font-family="system-ui, sans-serif">`
+    + `<title>${escaped(`${kind.name} of ${gait}`)}</title>`
+    + `<rect width="100%" height="100%" fill="${SHEET}"/>${parts.join("")}</svg>`
+  );
 }
 
 /** The picture as a PNG file. */
@@ -161,7 +183,7 @@ const columnName = ({ unit }, { foot, motor }) =>
 const number = (value) =>
   (value ?? null) === null || !Number.isFinite(value) ? "" : String(Number(value.toFixed(6)));
 
-/** Every value of the strip, one row for each sample: the planned values, then the simulated and the measured ones. */
+/** Every value of the strip, a row a sample: planned values, then the simulated and the measured ones. */
 export function plotCsv({ kind, content, plan, overs }) {
   const { series } = content;
   const lines = [
@@ -206,7 +228,7 @@ async function save(form, drawn) {
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
-/** Buttons that save a plot, one for each format; `drawn()` returns the argument of `plotSvg` and `plotCsv`, or null. */
+/** Buttons that save a plot, one a format; `drawn()` gives what `plotSvg` and `plotCsv` take, or null. */
 export function saveButtons(kind, drawn) {
   const help = {
     SVG: "Saves the plot as an SVG picture, for papers",

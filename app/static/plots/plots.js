@@ -1,4 +1,4 @@
-/** Strip plots under the timeline, on its time axis: the choice of strips, their curves, and the values under the pointer. */
+/** Strip plots under the timeline, on its time axis: choice, curves, and the values under the pointer. */
 
 import { axisKey, axisOf, fractionAt, timeAt } from "../state/time_axis.js";
 import { checkMenu } from "../lib/check_menu.js";
@@ -141,7 +141,10 @@ function emptyWords(state, plan) {
   return plan?.refusal ? "This gait has no motion. The timeline shows the reason." : "No plan yet.";
 }
 
-/** Shows the legend of all plots: a name for each line style. A preview that has none keeps its row, so that nothing moves. */
+/**
+ * Shows the legend of all plots: a name for each line style. A preview that has none keeps its row, so that
+ * nothing moves.
+ */
 function showLegend(key, names, isPreview = false) {
   if (names.length > 0 || !isPreview) key.hidden = names.length === 0;
   keep(key, names.map(({ word, dash }) => `${word} ${dash}`).join(), () =>

@@ -1,6 +1,6 @@
 /**
- * The canvas of a strip's curves. Without a GPU, a browser needs hundreds of milliseconds for dozens of SVG paths, but only
- * a few for a canvas.
+ * The canvas of a strip's curves. Without a GPU, a browser needs hundreds of milliseconds for dozens of SVG
+ * paths, but only a few for a canvas.
  */
 
 import { HEIGHT, WIDTH } from "./curves.js";
@@ -64,7 +64,7 @@ function paintLevels(pen, colours, { width, height }, { grid = [], borders = [],
 const MARK = { half: 4, gap: 3, edge: 2, line: 12 };
 const sprites = new Map();
 
-/** Image of a foot's mark and number, painted once: text on a visible canvas would force a layout of the page. */
+/** Image of a foot's mark and number, painted once: text on a visible canvas forces a layout of the page. */
 function sprite(foot, fill, ink, ratio) {
   const key = `${foot} ${fill} ${ink} ${ratio}`;
   if (sprites.has(key)) return sprites.get(key);
@@ -153,7 +153,8 @@ function paintBeyond(pen, colours, { width, height }, paths, clips) {
 /**
  * Builds a strip's canvas; it is painted again when the strip's size or the theme changes.
  * @returns {{element: HTMLCanvasElement, show: (drawing: Record<string, any>) => void}} a drawing has
- *   `bands` of missing values {x, width}; `rules`, vertical lines {x, from}, `from` a share of the height from the top;
+ *   `bands` of missing values {x, width};
+ *   `rules`, vertical lines {x, from}, `from` a share of the height from the top;
  *   `grid` and `borders`, heights of level lines; `lines` {y, kind ("limit", "wanted")};
  *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash, offset};
  *   `clips` {y, height}, where the curves pass a limit; `marks` {feet, x, y}, x null for the left end;

@@ -22,7 +22,10 @@ export const APART = 16;
 
 const isKnown = (value) => value !== null && Number.isFinite(value);
 
-/** Function from a foot to its band: its own row if the strip has lanes, else the whole height. */
+/**
+ * Function from a foot to its band: its own row if the strip has lanes, else the whole height.
+ * @param {Record<string, any>} content
+ */
 function bandsOf({ lanes, series }) {
   if (!lanes) return () => ({ top: 0, bottom: HEIGHT });
   const feet = new Set(series.map(({ foot }) => foot)).size;
@@ -46,7 +49,13 @@ function spanOf(content, overs, count) {
   return { range, low: Math.min(low, ...near), high: Math.max(high, ...near) };
 }
 
-/** Bands in which values pass a limit; the curves are painted there again in the colour of errors. */
+/**
+ * Bands in which values pass a limit; the curves are painted there again in the colour of errors.
+ * @param {Record<string, any>} content
+ * @param {(foot: number) => (value: number) => number} scaleFor
+ * @param {Record<string, any>[]} bands
+ * @param {number[]} range
+ */
 function beyond({ low = null, high = null }, scaleFor, bands, [least, most]) {
   const over = high !== null && most > high + ROUNDING;
   const under = low !== null && least < low - ROUNDING;
@@ -58,7 +67,10 @@ function beyond({ low = null, high = null }, scaleFor, bands, [least, most]) {
     .filter(Boolean);
 }
 
-/** Bands of samples with a missing value, such as a stroke for which the rod is too short. */
+/**
+ * Bands of samples with a missing value, such as a stroke for which the rod is too short.
+ * @param {Record<string, any>} content
+ */
 function missing({ series }, across) {
   const bands = [];
   const half = across.x.length > 1 ? (across.x[1] - across.x[0]) / 2 : 0;
@@ -131,7 +143,10 @@ function plannedCurves(content, across, scaleFor, { isUnder, grey, count, span }
   });
 }
 
-/** The highest sample of each rise in view, where the foot's mark goes. */
+/**
+ * The highest sample of each rise in view, where the foot's mark goes.
+ * @param {Record<string, any>} content
+ */
 function peaksOf({ series }, across, scaleFor) {
   return series.flatMap(({ foot, valueAt }) => {
     const peaks = [];
@@ -159,14 +174,14 @@ function peakMarks(peaks) {
   return marks;
 }
 
-/** For a gait on the robot's clock: a line at each pose, and a short one in each move where the robot first hears Stop. */
+/** For a gait on the robot's clock: a line at each pose, and a short one where the robot first hears Stop. */
 export function rulesOf(axis, { poses, times }) {
   if (!poses) return [];
   const at = (from) => (time) => ({ x: fractionAt(axis, time) * WIDTH, from });
   return [...times.map(at(0)), ...poses.heard.map(at(0.8))].filter(({ x }) => x >= 0 && x <= WIDTH);
 }
 
-/** Limits and the requested value, each with its name; `away` is the direction of one outside the scale, else null. */
+/** Limits and the requested value, with names; `away` is the direction of one off the scale, or null. */
 function namedValues({ low = null, high = null, wanted = null }, { range, low: bottom, high: top }) {
   const named = [
     { value: high, name: "limit", kind: "limit" },
@@ -181,10 +196,12 @@ function namedValues({ low = null, high = null, wanted = null }, { range, low: b
 /**
  * Computes a strip's plot.
  * @param {Record<string, any>} content of a strip's `of` (see strips.js)
- * @param {{axis: Record<string, any>, across: Record<string, any>, count: number, overs: Record<string, any>[], rules: Record<string, any>[], grey: string|null, isUnder: boolean}} view
- *   `isUnder`: whether the plan is drawn as the line under measured or simulated ones, here or in another strip
- * @returns {Record<string, any>} `scaleFor(foot)`, `range` of all values, `bands` of the feet {foot, top, bottom}, `ticks` {value, y},
- *   `named` values, `peaks` {foot, x, y}, and `drawing` as `stripCanvas` takes it
+ * @param {{axis: Record<string, any>, across: Record<string, any>, count: number, grey: string|null,
+ *   overs: Record<string, any>[], rules: Record<string, any>[], isUnder: boolean}} view
+ *   `isUnder`: whether the plan is drawn as the line under measured or simulated ones, also of another strip
+ * @returns {Record<string, any>} `scaleFor(foot)`, `range` of all values, `bands` of the feet
+ *   {foot, top, bottom}, `ticks` {value, y}, `named` values, `peaks` {foot, x, y}, and `drawing` as
+ *   `stripCanvas` takes it
  */
 export function stripPicture(content, { axis, across, count, overs, rules, grey, isUnder }) {
   const span = spanOf(content, overs, count);

@@ -39,8 +39,8 @@ const heightsAt = ({ real_heights_mm: real, feet }, index) =>
 const mmRequested = (value) => (value ? value * 1000 : null);
 
 /**
- * The limit of the feet's speed, mm/s; null where a motion is not computed, so that none holds. For a sequence, the
- * highest limit of its parts and of the steps between them.
+ * The limit of the feet's speed, mm/s; null where a motion is not computed, so that none holds. For a
+ * sequence, the highest limit of its parts and of the steps between them.
  */
 function footSpeedLimit({ parts }, document) {
   const computed = document.sequence?.length ? document.sequence.map(({ gait }) => gait) : [document];
@@ -50,10 +50,11 @@ function footSpeedLimit({ parts }, document) {
 }
 
 /**
- * The strips in their order. `of(plan, document)` returns the content, or null for the reason `lack`. A content has
- * `series` {foot, motor, valueAt(index)}, `low` and `high` (limits, null for none), `wanted` (requested by the gait),
- * `floor` and `most` (values that the scale always includes), `lanes` (each foot has its own row) and `rises` (feet at 0
- * are not drawn, and each rise has its foot's mark). `now(plan, index)` returns the text for a sample.
+ * The strips in their order. `of(plan, document)` returns the content, or null for the reason `lack`. A
+ * content has `series` {foot, motor, valueAt(index)}, `low` and `high` (limits, null for none), `wanted`
+ * (requested by the gait), `floor` and `most` (values that the scale always includes), `lanes` (each foot
+ * has its own row) and `rises` (feet at 0 are not drawn, and each rise has its foot's mark).
+ * `now(plan, index)` returns the text for a sample.
  */
 export const STRIPS = [
   {
@@ -154,7 +155,10 @@ export const STRIPS = [
   },
 ];
 
-/** Values of a sample, mm: `lifts` of the feet, `strokes` of the motors (null if out of reach), `margin` (null for none). */
+/**
+ * Values of a sample, mm: `lifts` of the feet, `strokes` of the motors (null if out of reach), `margin`
+ * (null for none).
+ */
 export function valuesAt(plan, index) {
   const margin = plan.margin?.[index] ?? null;
   return {

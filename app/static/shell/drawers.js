@@ -1,4 +1,4 @@
-/** The rail at the left, and the drawers that its buttons open beside the stage: one at a time, remembered in this browser. */
+/** The rail at the left, and the drawers that its buttons open beside the stage: one at a time, remembered. */
 
 import { byId, h, icon, setAttribute, setText } from "../lib/dom.js";
 import { remember, remembered } from "../lib/remembered.js";
@@ -29,7 +29,10 @@ function show(name) {
   setAttribute(document.body, "data-drawer", name);
 }
 
-/** Opens a drawer; null closes the one that is open. Returns whether anything changed. `isKept`: whether this browser remembers it. */
+/**
+ * Opens a drawer; null closes the one that is open. Returns whether anything changed. `isKept`: whether this
+ * browser remembers it.
+ */
 export function openDrawer(name, { isKept = true } = {}) {
   const before = current;
   if (before === name) return false;

@@ -5,7 +5,7 @@ import { toast } from "../lib/toasts.js";
 
 /** The message if the studio has not taken a Stop. */
 export const NOT_TAKEN =
-  "Stop did not reach the studio, which does not answer. " + "Switch off the robot's power.";
+  "Stop did not reach the studio, which does not answer. Switch off the robot's power.";
 
 async function press({ target }) {
   if (!target.closest?.("#stop")) return;

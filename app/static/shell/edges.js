@@ -1,4 +1,4 @@
-/** The upright edges: the drawer's and the inspector's width, and the height of the inspector as a sheet. Remembered in this browser. */
+/** The upright edges: width of drawer and inspector, and the inspector's height as a sheet. They are remembered. */
 
 import { clamp } from "../lib/clamp.js";
 import { byId, h, setAttribute } from "../lib/dom.js";
@@ -13,7 +13,8 @@ const HELP =
 /**
  * An edge that sets a size of the page.
  * @param {{name: string, variable: () => string, least: number, most: () => number, size: () => number,
- *   grows: 1|-1, axis: "x"|"y", edge: HTMLElement}} options `grows`: 1 where the size grows with the pointer's place
+ *   grows: 1|-1, axis: "x"|"y", edge: HTMLElement}} options
+ *   `grows`: 1 where the size grows with the pointer's place
  */
 function mountEdge({ name, variable, least, most, size, grows, axis, edge }) {
   const kept = remembered(`edge.${name}`);

@@ -6,7 +6,7 @@ import { attempt } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
 
 const USE_FILE =
-  "Replace this gait with the content of the changed file. " + "Undo brings back the gait that you see now";
+  "Replace this gait with the content of the changed file. Undo brings back the gait that you see now";
 const KEEP_MINE =
   "Write the gait to its file again, as the studio last saved it. "
   + "The studio moves the changed file to the folder set-aside";

@@ -2,7 +2,10 @@
 
 import { svg } from "../lib/dom.js";
 
-/** The swings of a row as [first, length]. */
+/**
+ * The swings of a row as [first, length].
+ * @returns {[number, number][]}
+ */
 const swingsOf = (row) => [...row.matchAll(/0+/g)].map((found) => [found.index, found[0].length]);
 
 const bits = (digit) => parseInt(digit, 16).toString(2).padStart(4, "0");

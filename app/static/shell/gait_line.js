@@ -1,8 +1,10 @@
-/** A line of the list of gaits: its state, its name, its footfalls as a picture, and its pace on the robot. */
+/** A line of the list of gaits: its state, its name, its footfalls as a picture, its pace on the robot. */
 
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { SPEED_UNIT, pace, timesText } from "../lib/format.js";
 import { thumbnail } from "./footfalls.js";
+
+const SETTLING_FRAMES = 10;
 
 /** States of a gait, each with the mark before its name and a sentence. */
 const STATES = {
@@ -64,8 +66,8 @@ function draw(line) {
  * @returns {Line}
  */
 export function gaitLine(gait) {
-  const element = ROW.cloneNode(true);
-  const button = element.firstChild;
+  const element = /** @type {HTMLLIElement} */ (ROW.cloneNode(true));
+  const button = /** @type {HTMLButtonElement} */ (element.firstElementChild);
   const [dot, name, picture, tag] = button.children;
   button.dataset.gait = gait.id;
   const line = { element, button, dot, name, picture, tag, columns: [], drawn: "", isSeen: false };
@@ -124,6 +126,19 @@ export function showLine(line, listed, selected, view) {
   setAttribute(line.button, "title", titleOf(gait, state));
   line.columns = gait.footfalls;
   if (line.isSeen) draw(line);
+}
+
+/** Whether the pointer is over a row's list, where no row must move away from a click; a closed group's row has none. */
+export const isPointedAt = (row) => row.parentElement?.matches(":hover") ?? false;
+
+/** Scrolls to the chosen row, for some frames: rows above it have their true height only once they are drawn. */
+export function bringIntoSight(row, frames = SETTLING_FRAMES) {
+  row.scrollIntoView({ block: "nearest" });
+  const goOn = () => {
+    if (row.isConnected && row.firstChild.getAttribute("aria-current") && !isPointedAt(row))
+      bringIntoSight(row, frames - 1);
+  };
+  if (frames > 0) requestAnimationFrame(goOn);
 }
 
 /**

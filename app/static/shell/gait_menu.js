@@ -1,4 +1,4 @@
-/** The menus over the list of gaits: acts on the shown gait (copy, export, delete with undo), and new gaits. */
+/** The menus over the list of gaits: new gaits, and acts on the shown one (copy, export, delete with undo). */
 
 import { api } from "../api/gaits.js";
 import { freeName } from "../document/gait_names.js";
@@ -59,7 +59,7 @@ async function remove(store, show, deletedHere) {
   await show(store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
 }
 
-/** Says so where somebody else has deleted the gait that this page showed; the list goes on to another one. */
+/** Says where somebody else has deleted the gait that this page showed; the list goes on to another one. */
 function watchDeleted(store, show, deletedHere) {
   let last = null;
   store.watch(
@@ -116,8 +116,8 @@ function gaitActs(store, edits, show, deletedHere) {
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} edits what was done before is part of a copy and of a file
  * @param {(id: string) => Promise<void>} show shows a gait
- * @returns {{addNew: (entry: Record<string, any>) => void, addAct: (entry: Record<string, any>) => void}} another entry of the menu New, and of the
- *   menu Gait, before Delete
+ * @returns {Record<"addNew"|"addAct", (entry: Record<string, any>) => void>} another entry of the menu New, and
+ *   of the menu Gait, before Delete
  */
 export function mountGaitTools(store, edits, show) {
   const deletedHere = new Set();
@@ -254,7 +254,7 @@ function importFiles(show) {
         await show(view.id);
         if (view.remarks.length)
           remarks.push([...(chosen.length > 1 ? [`${name}:`] : []), ...view.remarks].join(" "));
-        // Showing the next one takes away what belongs to this one: the sentences of all stand beside the last.
+        // Showing the next one takes away what belongs to this one: all sentences stand beside the last.
         if (remarks.length) toast(remarks.join(" "));
       }
     }),

@@ -1,4 +1,4 @@
-/** The list of jobs: state, iteration, violation, cancel; the end of a job is announced without taking the focus. */
+/** The list of jobs: state, iteration, violation, cancel; a job's end is announced without taking the focus. */
 
 import { api } from "../api/gaits.js";
 import { byId, h, setText } from "../lib/dom.js";
@@ -56,23 +56,23 @@ function titleHelp(job) {
   return job.result?.trial ? "Open the trial of this video" : "Open this video";
 }
 
+/** What a job has done so far, where its share is known. */
+const SHARES = { track: "tracked", simulate: "simulated" };
+
 function figures(job) {
+  if (SHARES[job.kind] && job.state === "running")
+    return `${SHARES[job.kind]} ${fixed((job.share ?? 0) * 100, 0)} %`;
+  if (SHARES[job.kind] || isSearch(job) || isAtlas(job)) return job.sentence;
   const last = job.progress?.at(-1);
-  if (isTracking(job))
-    return job.state === "running" ? `tracked ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
-  if (isSimulation(job))
-    return job.state === "running" ? `simulated ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
-  if (isSearch(job) || isAtlas(job)) return job.sentence;
   if (jobIsOn(job))
     return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
-  if (job.state === "done" && job.result && isTiming(job))
-    return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
-  if (job.state === "done" && job.result)
-    return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
-  return job.sentence;
+  if (job.state !== "done" || !job.result) return job.sentence;
+  return isTiming(job)
+    ? `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`
+    : `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
 }
 
-function item(store, id) {
+function item(id, picked) {
   const title = h("button", { class: "link" });
   const dot = h("span", { class: "dot" });
   const word = h("span", { class: "word" });
@@ -83,7 +83,7 @@ function item(store, id) {
     "aria-label": "Cancel job",
     on: { click: attempt(() => api.cancelJob(id)) },
   });
-  title.addEventListener("click", () => pick(store, id));
+  title.addEventListener("click", () => picked(id));
   const element = h(
     "li",
     { class: "job" },
@@ -94,14 +94,14 @@ function item(store, id) {
   return { element, title, dot, word, text, when, cancel };
 }
 
-async function pick(store, id) {
+/** Opens what a job is about; `showGait` shows a gait. */
+async function pick(store, id, showGait) {
   const job = store.state.jobs.find((one) => one.id === id);
   if (isTracking(job))
     return store.set({ trialWanted: job.result?.trial ? { trial: job.result.trial } : { video: job.video } });
   if (isSearch(job)) return store.set({ fastestWanted: job.id });
   if (isAtlas(job)) return store.set({ atlasWanted: job.atlas });
-  const { selectGait } = await import("./gait_list.js");
-  if (store.state.gaits.some((gait) => gait.id === job.gait)) await selectGait(store, job.gait);
+  if (store.state.gaits.some((gait) => gait.id === job.gait)) await showGait(job.gait);
   if (!isSimulation(job)) store.set({ shownJob: id });
   byId(isSimulation(job) ? "tab-simulate" : "tab-design").click();
   return undefined;
@@ -141,8 +141,12 @@ function announceEnded(store, before, jobs) {
   return new Map(jobs.map((job) => [job.id, job]));
 }
 
-/** Builds the list and keeps it current. */
-export function mountJobs(store) {
+/**
+ * Builds the list and keeps it current.
+ * @param {import("../state/store.js").Store} store
+ * @param {(id: string) => Promise<void>} showGait
+ */
+export function mountJobs(store, showGait) {
   const list = byId("jobs");
   const parts = new Map();
   let before = new Map();
@@ -159,7 +163,7 @@ export function mountJobs(store) {
           parts.delete(id);
         }
       visible.forEach((job, index) => {
-        if (!parts.has(job.id)) parts.set(job.id, item(store, job.id));
+        if (!parts.has(job.id)) parts.set(job.id, item(job.id, (id) => pick(store, id, showGait)));
         const part = parts.get(job.id);
         show(part, job, job === shown);
         if (list.children[index] !== part.element)

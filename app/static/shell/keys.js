@@ -11,7 +11,10 @@ import { stopRobot } from "./topbar.js";
 const isTyping = (target) =>
   target.closest?.("input, textarea, [contenteditable]") !== null && target.closest !== undefined;
 
-/** True where Space belongs to the focused control: never on a control that acts on the robot, or a cell that was pointed at. */
+/**
+ * True where Space belongs to the focused control: never on a control that acts on the robot, or a cell that
+ * was pointed at.
+ */
 function ownsSpace(target, withShift) {
   if (target.closest?.("[data-robot]") || (!withShift && target.closest?.("[data-pointed]"))) return false;
   return Boolean(target.closest?.("button, select, summary, a[href], [role=gridcell]"));
@@ -21,6 +24,11 @@ function ownsSpace(target, withShift) {
 const ownsLetters = (target) =>
   Boolean(target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog], [data-keys]"));
 
+/**
+ * What a key with Ctrl does; null for nothing.
+ * @param {KeyboardEvent} event
+ * @param {Record<string, any>} page
+ */
 function withControl(event, { edits, timeline, actions }) {
   const key = event.key.toLowerCase();
   if (key === "s") return edits.save;
@@ -47,7 +55,10 @@ function onTimeline(event, { store, actions, zoom }) {
   return ownsLetters(event.target) ? null : (byKey[event.key.toLowerCase()] ?? null);
 }
 
-/** True where an arrow key, Home or End belongs to the focused control; a list leaves Left and Right to the preview. */
+/**
+ * True where an arrow key, Home or End belongs to the focused control; a list leaves Left and Right to the
+ * preview.
+ */
 function ownsArrow({ target, key }) {
   const owner = target.closest?.("select, [role=gridcell], [role=tab], [role=menu], [data-arrows]");
   return Boolean(owner) && !(owner.dataset.arrows === "upright" && key.startsWith("Arrow"));
@@ -77,8 +88,8 @@ function plain(event, page) {
 
 /**
  * Wires the keyboard.
- * @param {Record<string, any>} page `store`, `edits`, `playback`, the timeline with its `actions` and `zoom`, and `escapes`: tried in
- *   order while no run is on; the first that did something wins
+ * @param {Record<string, any>} page `store`, `edits`, `playback`, the timeline with its `actions` and `zoom`,
+ *   and `escapes`: tried in order while no run is on; the first that did something wins
  */
 export function mountKeys(page) {
   const { store, escapes } = page;
@@ -121,7 +132,8 @@ export function mountKeys(page) {
   window.addEventListener(
     "keyup",
     (event) => {
-      if (event.key === " " && event.target.closest?.("[data-robot]")) event.preventDefault();
+      const target = /** @type {Element} */ (event.target);
+      if (event.key === " " && target.closest?.("[data-robot]")) event.preventDefault();
     },
     true,
   );

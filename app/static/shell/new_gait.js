@@ -220,8 +220,8 @@ function refuse({ of }, general, error) {
 
 /**
  * Asks for a new gait.
- * @param {Record<string, any>} preset `name`; where they are known `robot`, `orientation`, `step` (mm), `closing_knots`, and a `sentence`
- *   why it is asked
+ * @param {Record<string, any>} preset `name`; where they are known `robot`, `orientation`, `step` (mm),
+ *   `closing_knots`, and a `sentence` why it is asked
  * @returns {Promise<string|null>} the new gait's id, or null where the user thought better of it
  */
 export async function askNewGait(preset) {

@@ -1,4 +1,4 @@
-/** Without the studio everything but Stop and looking is off, and the page says why; edits that were not sent are kept. */
+/** Without the studio everything but Stop and looking is off, and the page says why; unsent edits are kept. */
 
 import { byId, setInert, setText } from "../lib/dom.js";
 
@@ -40,7 +40,8 @@ export function mountOffline(store) {
   let timer = null;
   const setOff = (isOff) => {
     document.body.toggleAttribute("data-offline", isOff);
-    for (const part of document.querySelectorAll(PARTS.join())) setInert(part, "offline", isOff);
+    const parts = /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll(PARTS.join()));
+    for (const part of parts) setInert(part, "offline", isOff);
   };
   store.watch(
     ({ connected, greeted, pending, left }) => [connected, greeted, pending.length, left.length],

@@ -20,9 +20,11 @@ const isStop = (element) =>
   && element.checkVisibility({ visibilityProperty: true })
   && !element.closest("[inert]");
 
-/** Of a foot the button of the next act, of any other part what Tab reaches first; undefined where the part is hidden. */
+/** Of a foot the button of the next act, else what Tab reaches first; undefined where the part is hidden. */
 function firstStop(part) {
-  const stops = [...document.querySelectorAll(`:is(${part}) :is(${STOPS})`)].filter(isStop);
+  /** @type {NodeListOf<HTMLElement>} */
+  const found = document.querySelectorAll(`:is(${part}) :is(${STOPS})`);
+  const stops = [...found].filter(isStop);
   return stops.find((stop) => stop.matches(".inspector-foot .primary")) ?? stops[0];
 }
 

@@ -1,7 +1,7 @@
 /**
- * The height of the lower part: dragged by its upper edge, or set by keys while the edge has the focus. Rows and plots
- * grow and shrink with it; where they cannot shrink further, the part scrolls. Its usual height leaves the robot room: what
- * is more than that is seen by scrolling. Remembered in this browser.
+ * The height of the lower part: dragged by its upper edge, or set by keys while the edge has the focus. Rows
+ * and plots grow and shrink with it; where they cannot shrink further, the part scrolls. Its usual height
+ * leaves the robot room: what is more than that is seen by scrolling. Remembered in this browser.
  */
 
 import { clamp } from "../lib/clamp.js";

@@ -1,6 +1,6 @@
 /**
- * The primary button at the foot of a step whose own act is not the next one: it names the next act on the way to the robot and
- * does it. An approval is given where its rules are read: there the button leads to them.
+ * The primary button at the foot of a step whose own act is not the next one: it names the next act on the
+ * way to the robot and does it. An approval is given where its rules are read: there the button leads.
  */
 
 import { byId, h, onPress, setAllowed, setText } from "../lib/dom.js";

@@ -9,7 +9,10 @@ import { lowered } from "../lib/format.js";
 /** Marks of a state: `done`, `running` (with a share), `old` (out of date), `failed`, `none` (not yet). */
 const state = (mark, word, share = null) => ({ mark, word, share });
 
-/** The parts of the store that a state depends on, but for those of the robot. */
+/**
+ * The parts of the store that a state depends on, but for those of the robot.
+ * @param {Record<string, any>} now the store's state
+ */
 export const gaitParts = ({
   view,
   jobs,
@@ -120,13 +123,16 @@ function checkAndApprovalState(now) {
 
 const RUN_MARKS = { done: "done", fault: "failed", stopped: "failed", lost: "failed", interrupted: "failed" };
 
+/** The state while a plan runs; of another gait than the shown one with its name. */
+function underWay({ robot, run }, selected) {
+  const word = run.gait === selected || !run.gait_name ? robot : `${robot}: ${run.gait_name}`;
+  return state("running", word, run.count ? run.reached / run.count : 0);
+}
+
 function runState(now) {
   const { robot, view, selected } = now;
+  if (planIsOn(robot)) return underWay(robot, selected);
   const run = robot?.run;
-  if (planIsOn(robot)) {
-    const word = run.gait === selected || !run.gait_name ? robot.robot : `${robot.robot}: ${run.gait_name}`;
-    return state("running", word, run.count ? run.reached / run.count : 0);
-  }
   const last = run?.gait ? { ...run, state: run.end } : robot?.previous_run;
   if (!last || !view || last.gait !== selected) return state("none", "not yet");
   if (last.waypoints_hash !== view.plan?.waypoints_hash || isEdited(now)) {

@@ -1,5 +1,6 @@
 /**
- * The four steps from a drawing to a walking robot: tabs in the top bar, each with its state. The inspector shows one of them.
+ * The four steps from a drawing to a walking robot: tabs in the top bar, each with its state. The inspector
+ * shows one of them.
  */
 
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
@@ -83,7 +84,7 @@ export function mountSteps(store) {
     for (const [name, { mark, word, share }] of Object.entries(stepStates(state))) {
       const { tab, mark: disc } = tabs[name];
       setAttribute(disc, "data-mark", mark);
-      disc.style.setProperty("--share", share ?? 0);
+      disc.style.setProperty("--share", String(share ?? 0));
       setAttribute(tab, "aria-label", `${STEPS[name].title}: ${word}`);
       setAttribute(tab, "title", `${STEPS[name].title}: ${word}`);
     }

@@ -25,6 +25,12 @@ const NONE = "–";
 /** Said by the mark alone. */
 const USUAL = "Plan found";
 
+/** How bad a margin is: `bad` below 0, `caution` where it is small and not simulated, else null. */
+function marginTone(plan, mark) {
+  if (plan.balance < 0) return "bad";
+  return mark === "old" && isThin(plan) ? "caution" : null;
+}
+
 /** What is known of the plan: mark, figure and the sentence on hover. */
 function planPart(state) {
   const plan = shownPlan(state);
@@ -34,7 +40,7 @@ function planPart(state) {
   const isMotion = plan.times.length > 0 && word !== "No motion";
   const margin = isMotion && plan.balance !== null ? `margin ${mm(plan.balance)} mm` : null;
   const figure = [word === USUAL && margin ? null : lowered(word), margin].filter(Boolean).join(", ");
-  const tone = !margin ? null : plan.balance < 0 ? "bad" : mark === "old" && isThin(plan) ? "caution" : null;
+  const tone = margin && marginTone(plan, mark);
   const thin =
     tone !== "caution"
       ? ""
@@ -131,7 +137,7 @@ function previewText({ iterate, preview, view, live, gesture, pending }) {
   return "";
 }
 
-/** Announces what has changed of the states once nothing changes any more: a drag would be read out at every step. */
+/** Announces changed states once nothing changes any more: a drag would be read out at every step. */
 function announcer() {
   let [announced, timer] = [null, null];
   return (state) => {

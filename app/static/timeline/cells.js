@@ -25,6 +25,7 @@ export const cellOf = (target) => {
 
 /** The cell under the focus: one of all cells is reached by Tab, the arrows move on from there. */
 export function rovingFocus(rows, reveal) {
+  /** @type {[number, number]} */
   let place = [0, 0];
   function move(cell) {
     const parts = rows();

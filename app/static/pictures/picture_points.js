@@ -1,4 +1,4 @@
-/** Points over a picture: set by a click, moved by drag or arrow keys, removed with Delete; a loupe shows the place. */
+/** Points over a picture: set by click, moved by drag or arrow keys, removed with Delete; a loupe helps. */
 
 import { h } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -54,13 +54,33 @@ function dragging(handle, picture, lens, { moving, moved }) {
   handle.addEventListener("pointercancel", end);
 }
 
+/** The button of a point, moved by drag and by keys. */
+function pointButton(index, picture, lens, { moving, moved, nudge, remove, chosen }) {
+  const title =
+    "Drag the point to move it. The arrow keys move the point by 1 px, with Shift by 10 px, "
+    + "with Alt by 0.1 px. The key Delete removes the point";
+  const element = h(
+    "button",
+    { type: "button", class: "video-point", title, data: { arrows: "", keys: "" } },
+    h("span", { text: String(index + 1) }),
+  );
+  dragging(element, picture, lens, { moving, moved });
+  element.addEventListener("keydown", (event) => pressed(event, { nudge, remove }));
+  element.addEventListener("focus", chosen);
+  element.addEventListener("blur", () => lens.show(null));
+  return element;
+}
+
 /**
  * Builds the points.
  * @param {Record<string, any>} picture of `pictureView`
- * @param {{add: (place: number[]) => void, move: (index: number, place: number[], last: boolean) => void, remove: (index: number) =>
- *   void, chosen: (index: number|null) => void}} acts `last` is false while a finger drags
- * @returns {{show: (places: number[][]) => void, focus: (index: number) => void, allow: (isOn: boolean) => void}} `allow` says
- *   whether a click sets a point
+ * @param {Object} acts
+ * @param {(place: number[]) => void} acts.add
+ * @param {(index: number, place: number[], last: boolean) => void} acts.move `last` is false during a drag
+ * @param {(index: number) => void} acts.remove
+ * @param {(index: number|null) => void} acts.chosen
+ * @returns {{show: (places: number[][]) => void, focus: (index: number) => void, allow: (isOn: boolean) =>
+ *   void}} `allow` says whether a click sets a point
  */
 export function picturePoints(picture, { add, move, remove, chosen }) {
   const lens = loupe(picture);
@@ -92,26 +112,14 @@ export function picturePoints(picture, { add, move, remove, chosen }) {
     lens.show(place);
   }
 
-  function handle(index) {
-    const title =
-      "Drag the point to move it. The arrow keys move the point by 1 px, with Shift by 10 px, "
-      + "with Alt by 0.1 px. The key Delete removes the point";
-    const element = h(
-      "button",
-      { type: "button", class: "video-point", title, data: { arrows: "", keys: "" } },
-      h("span", { text: String(index + 1) }),
-    );
-    dragging(element, picture, lens, {
+  const handle = (index) =>
+    pointButton(index, picture, lens, {
       moving: (place) => goTo(index, place, false),
       moved: () => move(index, places[index], true),
+      nudge: (by) => nudge(index, by),
+      remove: () => remove(index),
+      chosen: () => chosen(index),
     });
-    element.addEventListener("keydown", (event) =>
-      pressed(event, { nudge: (by) => nudge(index, by), remove: () => remove(index) }),
-    );
-    element.addEventListener("focus", () => chosen(index));
-    element.addEventListener("blur", () => lens.show(null));
-    return element;
-  }
 
   picture.onView(() => handles.forEach((_, index) => put(index)));
   picture.onHover((place) => {
@@ -143,6 +151,24 @@ const SIZE = 116;
 const TIMES = 6;
 const AWAY = 22;
 
+/** A cross over the loupe, open in the middle. */
+function drawCross(pen, color, width) {
+  const middle = SIZE / 2 + 0.5;
+  pen.strokeStyle = color;
+  pen.lineWidth = width;
+  pen.beginPath();
+  for (const [from, to] of [
+    [8, middle - 5],
+    [middle + 5, SIZE - 8],
+  ]) {
+    pen.moveTo(middle, from);
+    pen.lineTo(middle, to);
+    pen.moveTo(from, middle);
+    pen.lineTo(to, middle);
+  }
+  pen.stroke();
+}
+
 /**
  * Builds the loupe over a picture.
  * @param {Record<string, any>} picture of `pictureView`
@@ -159,38 +185,17 @@ function loupe(picture) {
   const pen = canvas.getContext("2d");
   picture.element.append(canvas);
 
+  /** @param {number[]} place */
   function draw([x, y]) {
-    const side = SIZE / TIMES;
     pen.imageSmoothingEnabled = false;
     pen.fillStyle = "#808080";
     pen.fillRect(0, 0, SIZE, SIZE);
     const shown = picture.image.naturalWidth / picture.size.width;
-    pen.drawImage(
-      picture.image,
-      ...[x + 0.5 - side / 2, y + 0.5 - side / 2, side, side].map((value) => value * shown),
-      0,
-      0,
-      SIZE,
-      SIZE,
-    );
-    const middle = SIZE / 2 + 0.5;
-    for (const [color, width] of [
-      ["#000", 3],
-      ["#fff", 1],
-    ]) {
-      pen.strokeStyle = color;
-      pen.lineWidth = width;
-      pen.beginPath();
-      pen.moveTo(middle, 8);
-      pen.lineTo(middle, middle - 5);
-      pen.moveTo(middle, middle + 5);
-      pen.lineTo(middle, SIZE - 8);
-      pen.moveTo(8, middle);
-      pen.lineTo(middle - 5, middle);
-      pen.moveTo(middle + 5, middle);
-      pen.lineTo(SIZE - 8, middle);
-      pen.stroke();
-    }
+    const side = (SIZE / TIMES) * shown;
+    const [left, top] = [x, y].map((value) => (value + 0.5) * shown - side / 2);
+    pen.drawImage(picture.image, left, top, side, side, 0, 0, SIZE, SIZE);
+    drawCross(pen, "#000", 3);
+    drawCross(pen, "#fff", 1);
   }
 
   return {

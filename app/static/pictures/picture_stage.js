@@ -1,4 +1,4 @@
-/** A large picture in the place of the 3D preview and the timeline: of a kept video with its frames, or of a camera. */
+/** A large picture instead of the 3D preview and the timeline: of a kept video's frames, or of a camera. */
 
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -49,19 +49,42 @@ function frameSlider(moved) {
   };
 }
 
+/** The section on the page; `tell` says why its picture is not a current one, or null. */
+function stageSection(name, slider, picture) {
+  const note = h("span", { class: "quiet", role: "status", text: "Waiting for the picture…" });
+  const element = h(
+    "section",
+    { class: "video-stage", "aria-label": "Picture", data: { keys: "" } },
+    h("header", {}, h("b", { text: name }), note, slider),
+    picture,
+  );
+  document.querySelector("section.stage").append(element);
+  document.body.toggleAttribute("data-video", true);
+  return {
+    tell(why) {
+      setText(note, why ?? "");
+      note.dataset.toneText = why === null ? "" : "caution";
+      note.title = why ?? "";
+      element.toggleAttribute("data-gone", why !== null);
+    },
+    remove() {
+      element.remove();
+      document.body.toggleAttribute("data-video", document.querySelector(".video-stage") !== null);
+    },
+  };
+}
+
 /**
  * Opens the picture.
- * @param {Record<string, any>} source of `videoSource` or `cameraSource`
+ * @param {import("../api/videos.js").Source} source
  * @param {number} [frame] that is shown first
- * @param {(why: string|null) => void} [lost] gets why there is no current picture, and null when there is one again
- * @returns {Record<string, any>} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a picture, `act(frame)` gives a blob, an
- *   address or null where it is out of date; `away(why)`: the server's reason if a camera is gone, or null;
- *   `refresh()`; `close()`; `source`
+ * @param {(why: string|null) => void} [lost] gets why there is no current picture, null when there is again
+ * @returns {Record<string, any>} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a
+ *   picture, `act(frame)` gives a blob, an address or null where it is out of date; `away(why)`: the server's
+ *   reason if a camera is gone, or null; `refresh()`; `close()`; `source`
  */
 export function openStage(source, frame = 0, lost = () => {}) {
   const picture = pictureView(`Picture of ${source.name}`);
-  const title = h("b", { text: source.name });
-  const note = h("span", { class: "quiet", role: "status", text: "Waiting for the picture…" });
   const plain = (number) => pictureOf(source, number);
   let [fetching, timer, closed, retry] = [plain, 0, false, RETRY_MS];
   let [reason, failed, shown] = [null, null, null];
@@ -69,10 +92,7 @@ export function openStage(source, frame = 0, lost = () => {}) {
   /** An old picture must not look like one of now. */
   function standing() {
     const why = reason ?? failed;
-    setText(note, why ?? "");
-    note.dataset.toneText = why === null ? "" : "caution";
-    note.title = why ?? "";
-    element.toggleAttribute("data-gone", why !== null);
+    section.tell(why);
     if (why === shown) return;
     shown = why;
     lost(why);
@@ -96,14 +116,7 @@ export function openStage(source, frame = 0, lost = () => {}) {
   });
   const slider = frameSlider(offer);
   slider.open(source, frame);
-  const element = h(
-    "section",
-    { class: "video-stage", "aria-label": "Picture", data: { keys: "" } },
-    h("header", {}, title, note, slider.element),
-    picture.element,
-  );
-  document.querySelector("section.stage").append(element);
-  document.body.toggleAttribute("data-video", true);
+  const section = stageSection(source.name, slider.element, picture.element);
   offer(slider.frame);
 
   return {
@@ -129,8 +142,7 @@ export function openStage(source, frame = 0, lost = () => {}) {
     close() {
       closed = true;
       clearTimeout(timer);
-      element.remove();
-      document.body.toggleAttribute("data-video", document.querySelector(".video-stage") !== null);
+      section.remove();
     },
   };
 }

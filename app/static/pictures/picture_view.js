@@ -1,4 +1,4 @@
-/** A picture to look closely at: zoomed by wheel, buttons and keys, moved by dragging, with drawings over it. */
+/** A picture to look closely at: zoomed by wheel, buttons and keys, moved by drag, with drawings over it. */
 
 import { clamp } from "../lib/clamp.js";
 import { h, icon, svg } from "../lib/dom.js";
@@ -10,8 +10,8 @@ const CLICK_PX = 4;
 const PAN_PX = 48;
 const KEYS_HELP = "The arrow keys move the picture. The keys + and − zoom. The key F shows the whole picture";
 
-/** The scale and place of a picture in its frame; `x`, `y` is where the picture's corner lies, screen px. */
-function createView() {
+/** The scale and place of a picture in its frame; `x`, `y` is where its corner lies, screen px. */
+function createView(changed) {
   const view = { scale: 1, x: 0, y: 0, fitted: true };
   return {
     view,
@@ -20,20 +20,27 @@ function createView() {
       view.x = (frame.width - size.width * view.scale) / 2;
       view.y = (frame.height - size.height * view.scale) / 2;
       view.fitted = true;
+      changed();
     },
     /** Zooms so that the place under the pointer stays there. */
-    zoom(factor, at, least) {
+    zoom(factor, at, frame, size) {
+      const least = Math.min(frame.width / size.width, frame.height / size.height, 1) / 2;
       const scale = clamp(view.scale * factor, least, CLOSEST);
       view.x = at.x - ((at.x - view.x) * scale) / view.scale;
       view.y = at.y - ((at.y - view.y) * scale) / view.scale;
       view.scale = scale;
       view.fitted = false;
+      changed();
     },
     move(dx, dy, frame, size) {
       view.x = clamp(view.x + dx, 40 - size.width * view.scale, frame.width - 40);
       view.y = clamp(view.y + dy, 40 - size.height * view.scale, frame.height - 40);
       view.fitted = false;
+      changed();
     },
+    /** @param {number[]} place */
+    toScreen: ([x, y]) => [view.x + (x + 0.5) * view.scale, view.y + (y + 0.5) * view.scale],
+    toPlace: ({ x, y }) => [(x - view.x) / view.scale - 0.5, (y - view.y) / view.scale - 0.5],
   };
 }
 
@@ -96,7 +103,7 @@ function mountKeys(frame, { closer, further, fit, pan }) {
   });
 }
 
-function zoomButtons({ zoom, fit, middle }) {
+function zoomButtons({ closer, further, fit }) {
   const button = (text, name, act) =>
     h("button", {
       type: "button",
@@ -108,16 +115,32 @@ function zoomButtons({ zoom, fit, middle }) {
     });
   const fitting = button("", "Show the whole picture", fit);
   fitting.append(icon("fit"));
-  const [out, closer] = [
-    button("−", "Zoom out", () => zoom(1 / STEP, middle())),
-    button("+", "Zoom in", () => zoom(STEP, middle())),
-  ];
-  return h("div", { class: "video-zoom", role: "group", "aria-label": "Zoom" }, out, closer, fitting);
+  return h(
+    "div",
+    { class: "video-zoom", role: "group", "aria-label": "Zoom" },
+    button("−", "Zoom out", further),
+    button("+", "Zoom in", closer),
+    fitting,
+  );
+}
+
+/** All ways to look at another part of the picture: buttons, pointer and keys. */
+function mountControls(frame, { pan, zoom, fit, hover, click }) {
+  const middle = () => ({ x: frame.clientWidth / 2, y: frame.clientHeight / 2 });
+  const closer = () => zoom(STEP, middle());
+  const further = () => zoom(1 / STEP, middle());
+  frame.append(zoomButtons({ closer, further, fit }));
+  mountPointer(frame, { pan, zoom, hover, click });
+  mountKeys(frame, { closer, further, fit, pan });
 }
 
 const newImage = () => Object.assign(new Image(), { className: "video-image", alt: "", draggable: false });
 
-/** Puts a new picture in the old one's place once it can be drawn, so that nothing flickers; gives back whether it is the newest. */
+/**
+ * Puts a new picture in the old one's place once it can be drawn, so that nothing flickers.
+ * @param {(image: HTMLImageElement, size: {width: number, height: number}) => void} replace
+ * @returns {(source: Blob|string, size?: number[]) => Promise<boolean>} resolves to whether it is the newest
+ */
 function mountImage(replace) {
   let [requested, shown] = [0, null];
   return async (source, size) => {
@@ -148,47 +171,13 @@ function mountImage(replace) {
   };
 }
 
-/**
- * Builds the view. Places are in the picture's pixels as cameras count them: 0, 0 is the middle of the first pixel.
- * @param {string} name of the picture, for assistive tools
- * @returns {Record<string, any>} `element`; `show(blob or address, size)`, where the size in px is told if the picture comes smaller; `drawing`, an SVG group in the picture's pixels; `layer` for points over it;
- *   `size`; `toScreen(place)`; `toPlace(screen)`; `onView(act)` after each change of scale; `onClick(act)` and `onHover(act)`
- *   with the place; `reveal(place)`; `image`
- */
-export function pictureView(name) {
+/** The picture with the drawings and points over it, in a frame; `draw` places them as a view says. */
+function pictureFrame(name) {
   let image = newImage();
   const drawing = svg("g");
   const overlay = svg("svg", { class: "video-overlay", "aria-hidden": "true" }, drawing);
   const layer = h("div", { class: "video-layer" });
-  const { view, fit, zoom, move } = createView();
-  const listeners = { view: [], click: [], hover: [] };
-  let size = { width: 1280, height: 720 };
-  const bounds = () => ({ width: frame.clientWidth, height: frame.clientHeight });
-  const least = () => Math.min(bounds().width / size.width, bounds().height / size.height, 1) / 2;
-  const toScreen = ([x, y]) => [view.x + (x + 0.5) * view.scale, view.y + (y + 0.5) * view.scale];
-  const toPlace = ({ x, y }) => [(x - view.x) / view.scale - 0.5, (y - view.y) / view.scale - 0.5];
-  const isInside = ([x, y]) => x >= 0 && y >= 0 && x <= size.width - 1 && y <= size.height - 1;
-
-  function drawn() {
-    image.style.transform = `translate(${view.x}px, ${view.y}px) scale(${view.scale})`;
-    image.toggleAttribute("data-close", view.scale >= 4);
-    drawing.setAttribute(
-      "transform",
-      `translate(${view.x + view.scale / 2} ${view.y + view.scale / 2}) scale(${view.scale})`,
-    );
-    listeners.view.forEach((act) => act(view.scale));
-  }
-  const doing =
-    (act) =>
-    (...values) => {
-      act(...values);
-      drawn();
-    };
-  const fitted = doing(() => fit(bounds(), size));
-  const zoomed = doing((factor, at) => zoom(factor, at, least()));
-  const panned = doing((dx, dy) => move(dx, dy, bounds(), size));
-  const middle = () => ({ x: bounds().width / 2, y: bounds().height / 2 });
-  const frame = h(
+  const element = h(
     "div",
     {
       class: "video-frame",
@@ -201,48 +190,81 @@ export function pictureView(name) {
     image,
     overlay,
     layer,
-    zoomButtons({ zoom: zoomed, fit: fitted, middle }),
   );
+  return {
+    element,
+    drawing,
+    layer,
+    get image() {
+      return image;
+    },
+    replace(next) {
+      image.replaceWith(next);
+      image = next;
+    },
+    draw({ scale, x, y }) {
+      image.style.transform = `translate(${x}px, ${y}px) scale(${scale})`;
+      image.toggleAttribute("data-close", scale >= 4);
+      drawing.setAttribute("transform", `translate(${x + scale / 2} ${y + scale / 2}) scale(${scale})`);
+    },
+  };
+}
 
-  mountPointer(frame, {
+/**
+ * Builds the view. Places are in the picture's pixels as cameras count them: 0, 0 is the first pixel's middle.
+ * @param {string} name of the picture, for assistive tools
+ * @returns {Record<string, any>} `element`; `show(blob or address, size)`, where the size in px is told if
+ *   the picture comes smaller; `drawing`, an SVG group in the picture's pixels; `layer` for points over it;
+ *   `size`; `toScreen(place)`; `toPlace(screen)`; `onView(act)` after each change of scale; `onClick(act)`
+ *   and `onHover(act)` with the place; `reveal(place)`; `image`
+ */
+export function pictureView(name) {
+  const frame = pictureFrame(name);
+  const { element, drawing, layer } = frame;
+  const { view, fit, zoom, move, toScreen, toPlace } = createView(drawn);
+  const listeners = { view: [], click: [], hover: [] };
+  let size = { width: 1280, height: 720 };
+  const bounds = () => ({ width: element.clientWidth, height: element.clientHeight });
+  /** @param {number[]} place */
+  const isInside = ([x, y]) => x >= 0 && y >= 0 && x <= size.width - 1 && y <= size.height - 1;
+
+  function drawn() {
+    frame.draw(view);
+    listeners.view.forEach((act) => act(view.scale));
+  }
+  const fitted = () => fit(bounds(), size);
+  const panned = (dx, dy) => move(dx, dy, bounds(), size);
+  const resized = () => (view.fitted ? fitted() : drawn());
+
+  mountControls(element, {
     pan: panned,
-    zoom: zoomed,
+    zoom: (factor, at) => zoom(factor, at, bounds(), size),
+    fit: fitted,
     hover: (at) => listeners.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),
     click: (at) => {
       if (isInside(toPlace(at))) listeners.click.forEach((act) => act(toPlace(at)));
     },
   });
-  mountKeys(frame, {
-    closer: () => zoomed(STEP, middle()),
-    further: () => zoomed(1 / STEP, middle()),
-    fit: fitted,
-    pan: panned,
-  });
-  new ResizeObserver(() => {
-    if (view.fitted) fitted();
-    else drawn();
-  }).observe(frame);
+  new ResizeObserver(resized).observe(element);
 
   return {
-    element: frame,
+    element,
     drawing,
     layer,
     toScreen,
     toPlace,
     isInside,
     get image() {
-      return image;
+      return frame.image;
     },
     get size() {
       return size;
     },
     show: mountImage((next, nextSize) => {
-      const changed = nextSize.width !== size.width || nextSize.height !== size.height;
+      if (nextSize.width !== size.width || nextSize.height !== size.height) view.fitted = true;
       size = nextSize;
-      image.replaceWith(Object.assign(next, size));
-      image = next;
-      if (changed || view.fitted) fitted();
-      else drawn();
+      frame.replace(Object.assign(next, size));
+      resized();
     }),
     onView: (act) => {
       listeners.view.push(act);

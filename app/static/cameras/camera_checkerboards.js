@@ -1,4 +1,4 @@
-/** Pictures of a checkerboard from files, video frames or a camera: which show it, and the lens fitted to them. */
+/** Pictures of a checkerboard from files, video frames or a camera, and the lens that is fitted to them. */
 
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -85,29 +85,12 @@ export function checkerboardBook({ changed, found }) {
   };
 }
 
-/** Ways to pictures of the board: files, frames of the shown video, what the camera sees. */
-export function checkerboardSources(stage, book, status) {
-  const { source } = stage;
-  const files = h("input", {
-    type: "file",
-    multiple: true,
-    accept: "image/*",
-    "aria-label": "Pictures of the checkerboard",
-  });
-  const spread = h("button", {
-    type: "button",
-    text: "Frames of this video",
-    title: "Looks for the checkerboard in 24 frames, spread evenly over the video",
-  });
-  const one = h("button", {
-    type: "button",
-    text: source.kind === "video" ? "The shown frame" : "The picture now",
-    title: "Looks for the checkerboard in the picture that is shown",
-  });
-  const stop = h("button", { type: "button", class: "link", text: "Cancel", hidden: true });
+/** Runs one search for the board at a time; `stop` is the button that ends it. */
+function boardSearch(status) {
   let ending = null;
-
-  const looking = (act) =>
+  const stop = h("button", { type: "button", class: "link", text: "Cancel", hidden: true });
+  stop.addEventListener("click", () => ending?.abort());
+  const starting = (act) =>
     attempt(async () => {
       if (ending) return;
       ending = new AbortController();
@@ -121,55 +104,73 @@ export function checkerboardSources(stage, book, status) {
         setText(status, "");
       }
     });
-  const { columns, rows } = { columns: () => book.corners.columns, rows: () => book.corners.rows };
+  return { stop, starting };
+}
+
+async function searchFiles(files, book, status, signal) {
+  for (const [index, file] of files.entries()) {
+    setText(status, `Looking for the checkerboard: picture ${index + 1} of ${files.length}…`);
+    const { columns, rows } = book.corners;
+    const board = await setupApi.board(file, columns, rows, signal);
+    if (board === null || signal.aborted) break;
+    await book.add([board]);
+  }
+}
+
+/** Searches frames that are spread over the video, as many in a request as the studio answers at once. */
+async function searchVideo(video, book, status, signal) {
+  let [frames, looked] = [null, 0];
+  do {
+    const { boards, left } = await videoApi.boards(video, { ...book.corners, frames });
+    if (signal.aborted) break;
+    await book.add(boards);
+    [frames, looked] = [left, looked + boards.length];
+    if (left.length)
+      setText(status, `Looking for the checkerboard: picture ${looked + 1} of ${looked + left.length}…`);
+  } while (frames.length);
+}
+
+/** The boards in the picture that is shown. */
+async function shownBoards({ source, frame }, { columns, rows }) {
+  if (source.kind !== "video") return [await cameraApi.board(source.id, columns, rows)];
+  return (await videoApi.boards(source.id, { columns, rows, frames: [frame] })).boards;
+}
+
+/** Ways to pictures of the board: files, frames of the shown video, what the camera sees. */
+export function checkerboardSources(stage, book, status) {
+  const { source } = stage;
+  const isVideo = source.kind === "video";
+  const search = boardSearch(status);
+  const files = h("input", {
+    type: "file",
+    multiple: true,
+    accept: "image/*",
+    "aria-label": "Pictures of the checkerboard",
+  });
   files.addEventListener(
     "change",
-    looking(async (signal) => {
-      const chosen = [...files.files];
-      for (const [index, file] of chosen.entries()) {
-        setText(status, `Looking for the checkerboard: picture ${index + 1} of ${chosen.length}…`);
-        const board = await setupApi.board(file, columns(), rows(), signal);
-        if (board === null || signal.aborted) break;
-        await book.add([board]);
-      }
+    search.starting(async (signal) => {
+      await searchFiles([...files.files], book, status, signal);
       files.value = "";
     }),
   );
-  spread.hidden = source.kind !== "video";
-  spread.addEventListener(
-    "click",
-    looking(async (signal) => {
-      let [frames, looked] = [null, 0];
-      do {
-        const { boards, left } = await videoApi.boards(source.id, {
-          columns: columns(),
-          rows: rows(),
-          frames,
-        });
-        if (signal.aborted) break;
-        await book.add(boards);
-        [frames, looked] = [left, looked + boards.length];
-        if (left.length)
-          setText(status, `Looking for the checkerboard: picture ${looked + 1} of ${looked + left.length}…`);
-      } while (frames.length);
-    }),
-  );
-  one.addEventListener(
-    "click",
-    looking(async () => {
-      const boards =
-        source.kind === "video"
-          ? (await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames: [stage.frame] }))
-              .boards
-          : [await cameraApi.board(source.id, columns(), rows())];
-      await book.add(boards);
-    }),
-  );
-  stop.addEventListener("click", () => ending?.abort());
+  const spread = h("button", {
+    type: "button",
+    text: "Frames of this video",
+    title: "Looks for the checkerboard in 24 frames, spread evenly over the video",
+    hidden: !isVideo,
+    on: { click: search.starting((signal) => searchVideo(source.id, book, status, signal)) },
+  });
+  const one = h("button", {
+    type: "button",
+    text: isVideo ? "The shown frame" : "The picture now",
+    title: "Looks for the checkerboard in the picture that is shown",
+    on: { click: search.starting(async () => book.add(await shownBoards(stage, book.corners))) },
+  });
   return h(
     "div",
     { class: "camera-sources" },
     h("label", {}, h("span", { text: "Pictures" }), files),
-    h("div", { class: "camera-row" }, spread, one, stop),
+    h("div", { class: "camera-row" }, spread, one, search.stop),
   );
 }

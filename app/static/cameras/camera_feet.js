@@ -1,4 +1,4 @@
-/** Tunes the colours of the feet on a picture: pixels of the colour stay lit, and each blob shows why it is a foot or not. */
+/** Tunes the colours of the feet on a picture: their pixels stay lit, blobs say why they are feet or not. */
 
 import { look } from "../api/videos.js";
 import { h, setText } from "../lib/dom.js";
@@ -114,7 +114,7 @@ function colourFields(change, changeLimits) {
   );
   const value = shareField(
     "Least brightness",
-    "Darker pixels do not count as part of the foot. " + "Pixels in a shadow are dark",
+    "Darker pixels do not count as part of the foot. Pixels in a shadow are dark",
     (share, last) => change({ value: share }, last),
   );
   const limits = limitFields(changeLimits);
@@ -135,113 +135,64 @@ function colourFields(change, changeLimits) {
   };
 }
 
-/**
- * Builds the part.
- * @param {Record<string, any>} draft of `setupDraft`
- * @param {Record<string, any>} stage of `openStage`
- * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
- */
-export function feetPart(draft, stage) {
-  let [foot, isOn, since, hasMask] = [0, false, null, true];
-  const [found, number] = [findings(), blobNumbers(stage.picture)];
-
-  function change(patch, last = true) {
-    since ??= performance.now();
-    draft.change(patch, last);
-    stage.refresh();
-  }
-  const changeColour = (patch, last) =>
-    change(
-      {
-        colours: draft.state.setup.colours.map((one, index) => (index === foot ? { ...one, ...patch } : one)),
-      },
-      last,
-    );
-  const buttons = footButtons((next) => {
-    foot = next;
-    show();
-    stage.refresh();
-  });
-  const fields = colourFields(changeColour, (patch) =>
-    change({ limits: { ...draft.state.setup.limits, ...patch } }),
-  );
-  const turnMask = () => {
-    hasMask = !hasMask;
-    showMask();
-  };
-  const mask = h("button", { type: "button", text: "Mask", title: MASK_HELP, on: { click: turnMask } });
-  const picking = colourPicking(stage.picture, {
-    changed: () => showMask(),
-    take: (range) => {
-      changeColour(range);
-      announce(`The colour of foot ${foot + 1} is set.`);
-    },
-  });
+/** What is shown: the mask of the foot's colour, or the picture itself, from which a colour can be picked. */
+function shownColours(picture, { changed, take }) {
+  let hasMask = true;
+  const mask = h("button", { type: "button", text: "Mask", title: MASK_HELP });
+  const picking = colourPicking(picture, { changed: update, take });
   const shows = () => (hasMask && !picking.isOn() ? "mask" : "plain");
 
-  function showMask() {
+  function update() {
     mask.setAttribute("aria-pressed", String(shows() === "mask"));
-    if (isOn) stage.refresh();
+    changed();
   }
 
+  mask.addEventListener("click", () => {
+    hasMask = !hasMask;
+    update();
+  });
+  update();
+  return { buttons: [picking.button, mask], shows, shown: picking.shown, end: picking.end };
+}
+
+/** Looks for the feet while the part is open, and draws blobs; `wanted` gives the foot and what to show. */
+function feetView(draft, stage, { wanted, shown }) {
+  const number = blobNumbers(stage.picture);
+  let [isOn, since] = [false, null];
+
   async function fetching(frame) {
-    const [
-      began,
-      wanted,
-      {
-        setup,
-        answer: { view },
-      },
-    ] = [since ?? performance.now(), shows(), draft.state];
-    const answer = await look(stage.source, frame, {
-      foot: foot + 1,
-      colours: setup.colours,
-      limits: setup.limits,
-      shows: wanted,
-      setup: view ? setup : null,
-      most: MOST_WIDTH,
-    });
+    const began = since ?? performance.now();
+    const { setup, answer: state } = draft.state;
+    const { colours, limits } = setup;
+    const request = { ...wanted(), colours, limits, setup: state.view ? setup : null, most: MOST_WIDTH };
+    const answer = await look(stage.source, frame, request);
     if (!isOn) return null;
     await stage.picture.show(answer.picture, answer.size);
     if (!isOn) return null;
     drawBlobs(stage.picture.drawing, answer);
     number(answer.spots);
-    found.show(answer, foot);
     since = null;
-    picking.shown(wanted === "plain");
+    shown(answer, request.shows);
     measured("colour to picture", began);
     return null;
   }
 
-  const show = () => {
-    buttons.show(foot);
-    fields.show(draft.state.setup, foot);
-  };
-
-  draft.watch(
-    ({ setup }) => [setup.colours, setup.limits],
-    () => {
-      if (isOn) show();
-    },
-  );
-  showMask();
   return {
-    element: h(
-      "div",
-      { class: "camera-part" },
-      h("p", { class: "quiet", text: HELP }),
-      h("div", { class: "camera-row" }, buttons.element, picking.button, mask),
-      ...fields.elements,
-      found.element,
-    ),
+    isOn: () => isOn,
+    refresh() {
+      if (isOn) stage.refresh();
+    },
+    change(patch, last = true) {
+      since ??= performance.now();
+      draft.change(patch, last);
+      stage.refresh();
+    },
     enter() {
       isOn = true;
-      show();
       stage.fetches(fetching);
     },
     leave() {
       isOn = false;
-      picking.end();
       stage.picture.drawing.replaceChildren();
       number([]);
       stage.fetches(null);
@@ -250,11 +201,79 @@ export function feetPart(draft, stage) {
 }
 
 /**
+ * Builds the part.
+ * @param {Record<string, any>} draft of `setupDraft`
+ * @param {Record<string, any>} stage of `openStage`
+ * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
+ */
+export function feetPart(draft, stage) {
+  let foot = 0;
+  const found = findings();
+  const view = feetView(draft, stage, {
+    wanted: () => ({ foot: foot + 1, shows: colours.shows() }),
+    shown(answer, wanted) {
+      found.show(answer, foot);
+      colours.shown(wanted === "plain");
+    },
+  });
+  const changeColour = (patch, last) => {
+    const patched = (one, index) => (index === foot ? { ...one, ...patch } : one);
+    view.change({ colours: draft.state.setup.colours.map(patched) }, last);
+  };
+  const buttons = footButtons((next) => {
+    foot = next;
+    show();
+    view.refresh();
+  });
+  const fields = colourFields(changeColour, (patch) =>
+    view.change({ limits: { ...draft.state.setup.limits, ...patch } }),
+  );
+  const colours = shownColours(stage.picture, {
+    changed: view.refresh,
+    take: (range) => {
+      changeColour(range);
+      announce(`The colour of foot ${foot + 1} is set.`);
+    },
+  });
+
+  function show() {
+    buttons.show(foot);
+    fields.show(draft.state.setup, foot);
+  }
+
+  draft.watch(
+    ({ setup }) => [setup.colours, setup.limits],
+    () => {
+      if (view.isOn()) show();
+    },
+  );
+  const element = h(
+    "div",
+    { class: "camera-part" },
+    h("p", { class: "quiet", text: HELP }),
+    h("div", { class: "camera-row" }, buttons.element, ...colours.buttons),
+    ...fields.elements,
+    found.element,
+  );
+  return {
+    element,
+    enter() {
+      show();
+      view.enter();
+    },
+    leave() {
+      view.leave();
+      colours.end();
+    },
+  };
+}
+
+/**
  * Builds the button.
  * @param {Record<string, any>} picture of `pictureView`
- * @param {{changed: () => void, take: (range: Record<string, any>) => void}} acts `changed` when picking begins or ends
- * @returns {{button: HTMLElement, isOn: () => boolean, shown: (hasOwnColours: boolean) => void, end: () => void}} call `shown` with
- *   each new picture: whether it has its own colours
+ * @param {{changed: () => void, take: (range: Record<string, any>) => void}} acts `changed` at begin and end
+ * @returns {{button: HTMLElement, isOn: () => boolean, shown: (hasOwn: boolean) => void, end: () => void}}
+ *   call `shown` with each new picture: whether it has its own colours
  */
 export function colourPicking(picture, { changed, take }) {
   const title =
@@ -341,7 +360,7 @@ const ascending = (values) => [...values].sort((a, b) => a - b);
 /**
  * The range of a clicked colour.
  * @param {number[][]} pixels red, green, blue, 0 to 255
- * @returns {{hue: number[], saturation: number, value: number}|null} null where they have no colour: grey, black or white
+ * @returns {{hue: number[], saturation: number, value: number}|null} null for grey, black or white
  */
 export function rangeOf(pixels) {
   const all = pixels.map(hsv);

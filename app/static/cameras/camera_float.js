@@ -20,7 +20,7 @@ function recalledPlace() {
   return [x, y, width].map((value) => (Number.isFinite(value) ? value : null));
 }
 
-/** Moves the picture within the stage by its title, dragged or by arrow keys, and makes it larger by its corner; both are kept. */
+/** Moves the picture by its title, with drag or keys, and resizes it by its corner; both are kept. */
 function movable(element, title) {
   const [keptX, keptY, width] = recalledPlace();
   let [x, y, held] = [keptX ?? 0, keptY ?? 0, null];
@@ -55,7 +55,7 @@ function movable(element, title) {
     place(x + way[0] * STEP_PX, y + way[1] * STEP_PX);
     put();
   });
-  // Its corner is the browser's own handle; a new size may push it over the stage's edge, as a smaller window may.
+  // The corner is the browser's own handle. A new size or a smaller window may push it over the stage's edge.
   new ResizeObserver(() => {
     if (!element.isConnected) return;
     place(x, y);
@@ -63,35 +63,41 @@ function movable(element, title) {
   }).observe(element);
 }
 
-function build(store, id) {
+/** The bar that names the camera; the picture is moved by it. */
+function titleBar(close) {
   const [dot, word, name] = [h("span", { class: "dot" }), h("span", { class: "quiet" }), h("b")];
-  const image = h("img", { alt: "", draggable: "false" });
-  const note = h("p", { class: "quiet", role: "status" });
-  const close = h(
+  const closing = h(
     "button",
     {
       type: "button",
       class: "plain icon-only",
       "aria-label": "Close the camera's picture",
-      on: { click: () => shut() },
+      on: { click: close },
     },
     icon("close"),
   );
-  const title = h(
-    "header",
-    {
-      tabindex: "0",
-      role: "group",
-      data: { arrows: "" },
-      title:
-        "Drag here to move the picture, or press the arrow keys. Drag the corner to resize the picture, or press + and −",
+  const title =
+    "Drag here to move the picture, or press the arrow keys. "
+    + "Drag the corner to resize the picture, or press + and −";
+  const attributes = { tabindex: "0", role: "group", data: { arrows: "" }, title };
+  const element = h("header", attributes, dot, name, word, closing);
+  return {
+    element,
+    show(camera) {
+      const keys = "the arrow keys move the picture, plus and minus resize the picture";
+      element.setAttribute("aria-label", `Camera ${camera.name}: ${keys}`);
+      setText(name, camera.name);
+      dot.dataset.tone = cameraTone(camera);
+      setText(word, cameraLabel(camera));
     },
-    dot,
-    name,
-    word,
-    close,
-  );
-  const element = h("section", { class: "camera-float" }, title, image, note);
+  };
+}
+
+function build(store, id) {
+  const image = h("img", { alt: "", draggable: "false" });
+  const note = h("p", { class: "quiet", role: "status" });
+  const title = titleBar(shut);
+  const element = h("section", { class: "camera-float" }, title.element, image, note);
   let [isClosed, streams] = [false, false];
 
   function follow({ cameras }) {
@@ -99,13 +105,7 @@ function build(store, id) {
     const camera = cameras?.find((one) => one.id === id);
     if (!camera) return;
     element.setAttribute("aria-label", `Camera ${camera.name}`);
-    title.setAttribute(
-      "aria-label",
-      `Camera ${camera.name}: the arrow keys move the picture, plus and minus resize the picture`,
-    );
-    setText(name, camera.name);
-    dot.dataset.tone = cameraTone(camera);
-    setText(word, cameraLabel(camera));
+    title.show(camera);
     const gone = camera.state === "unplugged";
     setText(note, gone ? camera.sentence : "");
     image.hidden = gone;
@@ -126,7 +126,7 @@ function build(store, id) {
   image.addEventListener("error", () => {
     streams = false;
   });
-  movable(element, title);
+  movable(element, title.element);
   store.watch(({ cameras }) => [cameras], follow);
   return { id, element, shut };
 }

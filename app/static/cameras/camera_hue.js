@@ -1,4 +1,4 @@
-/** A range of hues on the colour circle, laid out as a strip with two ends; a range may go over red, where the circle closes. */
+/** A range of hues on the colour circle as a strip with two ends; it may go over red, where that closes. */
 
 import { h } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -9,7 +9,10 @@ const FAR = 10;
 
 const around = (degrees) => ((degrees % CIRCLE) + CIRCLE) % CIRCLE;
 
-/** The pieces of the strip that a range leaves out, as shares from left to right. */
+/**
+ * The pieces of the strip that a range leaves out, as shares from left to right.
+ * @param {number[]} range
+ */
 function leftOut([low, high]) {
   return low <= high
     ? [
@@ -23,7 +26,7 @@ function leftOut([low, high]) {
 }
 
 function end(strip, { read, moving, moved }) {
-  const title = "Drag this end of the hue range. " + "The arrow keys move this end by 1°, with Shift by 10°";
+  const title = "Drag this end of the hue range. The arrow keys move this end by 1°, with Shift by 10°";
   const element = h("div", {
     class: "hue-end",
     role: "slider",
@@ -73,9 +76,10 @@ function end(strip, { read, moving, moved }) {
 
 /**
  * Builds the strip.
- * @param {(range: number[], last: boolean) => void} changed told (low, high) as shares of the circle; `last` is false while a
- *   finger drags
- * @returns {{element: HTMLElement, show: (range: number[], name: string) => void}} `name` is of what has the colour, such as "Foot 1"
+ * @param {(range: number[], last: boolean) => void} changed told (low, high) as shares of the circle;
+ *   `last` is false while a finger drags
+ * @returns {{element: HTMLElement, show: (range: number[], name: string) => void}} `name` is of what has the
+ *   colour, such as "Foot 1"
  */
 export function hueRange(changed) {
   let [range, owner] = [[0, 1], ""];

@@ -1,4 +1,4 @@
-/** The server's cameras: what each sees, which setup it has, whether it records with the run, and its live picture. */
+/** The server's cameras: what each sees, its setup, whether it records with the run, and its live picture. */
 
 import { drawFeet } from "./camera_overlay.js";
 import { FOOT_NAMES, USES, cameraTone, cameraLabel } from "./camera_labels.js";
@@ -13,84 +13,115 @@ import "../pictures/picture_style.js";
 
 const LOOK_WIDTH = 1280;
 const HELP =
-  "Plug in a camera. " + "To use a video file instead, start the studio with the option --camera NAME=FILE.";
+  "Plug in a camera. To use a video file instead, start the studio with the option --camera NAME=FILE.";
 
 /** Puts a camera that the server sent into the page's state. */
 function accept(store, camera) {
   store.set({ cameras: (store.state.cameras ?? []).map((one) => (one.id === camera.id ? camera : one)) });
 }
 
-function recordSwitch(change) {
-  const input = h("input", { type: "checkbox", role: "switch" });
-  input.addEventListener("change", () => change({ records: input.checked }));
+const LABELS = {
+  use: {
+    name: "seen",
+    title:
+      "Where the camera is. With a camera under the platform, the studio tracks the feet. "
+      + "With a camera at the side, the studio only shows and records the picture",
+  },
+  setup: {
+    name: "setup",
+    title:
+      "The setup of this camera: the lens correction, the place of the "
+      + "platform in the picture and the colours of the feet",
+  },
+  records: {
+    name: "record each run",
+    title:
+      "Records a video of each run. If the camera is under the platform, "
+      + "the studio makes a trial from the video",
+  },
+};
+
+/** The fields of what can be changed of a camera; `change` gets what is new. */
+function cameraFields(change) {
+  const use = h(
+    "select",
+    { title: LABELS.use.title },
+    ...USES.map(([value, text]) => h("option", { value, text })),
+  );
+  const setup = h("select", { title: LABELS.setup.title });
+  const records = h("input", { type: "checkbox", role: "switch" });
+  use.addEventListener("change", () => change({ use: use.value }));
+  setup.addEventListener("change", () => change({ setup: setup.value }));
+  records.addEventListener("change", () => change({ records: records.checked }));
+  const setupLine = h("label", {}, h("span", { text: "Setup" }), setup);
+
+  /** Keeps an open choice as it is while the setups are the same. */
+  function fillSetups(setups) {
+    const options = [["", "none yet"], ...setups.map((one) => [one.id, one.setup.name])];
+    if (setup.dataset.options === JSON.stringify(options)) return;
+    setup.dataset.options = JSON.stringify(options);
+    setup.replaceChildren(...options.map(([value, text]) => h("option", { value, text })));
+  }
   return {
-    input,
-    label: h(
-      "label",
-      {
-        class: "tick",
-        title:
-          "Records a video of each run. If the camera is under the platform, the studio makes a trial from the video",
-      },
-      input,
-      "Record each run",
-    ),
+    elements: [
+      h("label", {}, h("span", { text: "Seen" }), use),
+      setupLine,
+      h("label", { class: "tick", title: LABELS.records.title }, records, "Record each run"),
+    ],
+    show(camera, setups) {
+      for (const [key, field] of Object.entries({ use, setup, records }))
+        field.setAttribute("aria-label", `${camera.name}, ${LABELS[key].name}`);
+      fillSetups(setups);
+      [use.value, setup.value, records.checked] = [camera.use, camera.setup, camera.records];
+      setupLine.hidden = camera.use !== "under";
+    },
+  };
+}
+
+/** The buttons that lead to a camera's picture and setup. */
+function cameraButtons({ watch, float, setUp }) {
+  const button = (text, title, act) =>
+    h("button", { type: "button", class: "link", text, title, on: { click: act } });
+  const looking = button("Look", "Shows the live picture and marks the feet that the studio finds", watch);
+  const floating = button("Beside the scene", "Shows the live picture in a corner of the 3D scene", float);
+  const adjust = button(
+    "Set up…",
+    "Opens the live picture of the camera. There you set the lens correction, "
+      + "the place of the platform and the colours of the feet",
+    setUp,
+  );
+  return {
+    element: h("div", { class: "camera-row" }, looking, floating, adjust),
+    show({ state, use }) {
+      const isGone = state === "unplugged";
+      [looking.hidden, floating.hidden, adjust.hidden] = [isGone, isGone, isGone || use !== "under"];
+    },
   };
 }
 
 /** One camera's line; it is changed in place, so that what is focused stays so. */
 function cameraRow(store, id, { watch, setUp }) {
   const now = () => store.state.cameras.find((camera) => camera.id === id);
-  const change = attempt(async (changes) => {
-    try {
-      accept(store, await cameraApi.change(id, changes));
-    } finally {
-      show(now(), store.state.setups ?? []);
-    }
+  const fields = cameraFields(
+    attempt(async (changes) => {
+      try {
+        accept(store, await cameraApi.change(id, changes));
+      } finally {
+        show(now(), store.state.setups ?? []);
+      }
+    }),
+  );
+  const buttons = cameraButtons({
+    watch: () => watch(now()),
+    float: () => toggleFloat(store, id),
+    setUp: () => setUp(now()),
   });
-  const [dot, name, word, sentence] = [
-    h("span", { class: "dot" }),
-    h("b"),
-    h("span", { class: "word" }),
-    h("p", { class: "why" }),
-  ];
-  const useHelp =
-    "Where the camera is. With a camera under the platform, the studio tracks the feet. "
-    + "With a camera at the side, the studio only shows and records the picture";
-  const use = h("select", { title: useHelp }, ...USES.map(([value, text]) => h("option", { value, text })));
-  const setup = h("select", {
-    title:
-      "The setup of this camera: the lens correction, the place of the "
-      + "platform in the picture and the colours of the feet",
-  });
-  const records = recordSwitch(change);
-  use.addEventListener("change", () => change({ use: use.value }));
-  setup.addEventListener("change", () => change({ setup: setup.value }));
-  const button = (text, title, act) =>
-    h("button", { type: "button", class: "link", text, title, on: { click: act } });
-  const setupLine = h("label", {}, h("span", { text: "Setup" }), setup);
-  const adjust = button(
-    "Set up…",
-    "Opens the live picture of the camera. There you set the lens correction, "
-      + "the place of the platform and the colours of the feet",
-    () => setUp(now()),
-  );
-  const looking = button("Look", "Shows the live picture and marks the feet that the studio finds", () =>
-    watch(now()),
-  );
-  const float = button("Beside the scene", "Shows the live picture in a corner of the 3D scene", () =>
-    toggleFloat(store, id),
-  );
-  const element = h(
-    "li",
-    { class: "camera" },
-    h("div", { class: "run-line" }, dot, name, word),
-    sentence,
-    h("label", {}, h("span", { text: "Seen" }), use),
-    setupLine,
-    records.label,
-    h("div", { class: "camera-row" }, looking, float, adjust),
-  );
+  const dot = h("span", { class: "dot" });
+  const name = h("b");
+  const word = h("span", { class: "word" });
+  const sentence = h("p", { class: "why" });
+  const line = h("div", { class: "run-line" }, dot, name, word);
+  const element = h("li", { class: "camera" }, line, sentence, ...fields.elements, buttons.element);
 
   function show(camera, setups) {
     dot.dataset.tone = cameraTone(camera);
@@ -98,22 +129,8 @@ function cameraRow(store, id, { watch, setUp }) {
     element.setAttribute("aria-label", camera.name);
     setText(word, cameraLabel(camera));
     setText(sentence, camera.state === "unplugged" ? camera.sentence : "");
-    use.value = camera.use;
-    [
-      [use, "seen"],
-      [setup, "setup"],
-      [records.input, "record each run"],
-    ].forEach(([one, text]) => one.setAttribute("aria-label", `${camera.name}, ${text}`));
-    const options = [["", "none yet"], ...setups.map((one) => [one.id, one.setup.name])];
-    if (setup.dataset.options !== JSON.stringify(options)) {
-      setup.dataset.options = JSON.stringify(options);
-      setup.replaceChildren(...options.map(([value, text]) => h("option", { value, text })));
-    }
-    setup.value = camera.setup;
-    [setupLine.hidden, adjust.hidden] = [camera.use !== "under", camera.use !== "under"];
-    records.input.checked = camera.records;
-    for (const one of [looking, adjust, float])
-      one.hidden = camera.state === "unplugged" || (one === adjust && camera.use !== "under");
+    fields.show(camera, setups);
+    buttons.show(camera);
   }
   return { element, show };
 }
@@ -121,7 +138,8 @@ function cameraRow(store, id, { watch, setUp }) {
 /**
  * Builds the list; it follows the server's events.
  * @param {import("../state/store.js").Store} store
- * @param {{watch: (camera: Record<string, any>) => void, setUp: (camera: Record<string, any>) => void}} acts
+ * @param {{watch: (camera: Record<string, any>) => void, setUp: (camera: Record<string, any>) => void}}
+ *   actions
  */
 export function cameraList(store, actions) {
   const list = h("ul", { class: "camera-list", role: "list", "aria-label": "Cameras" });

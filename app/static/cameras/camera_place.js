@@ -42,6 +42,13 @@ const PRESETS = {
 
 const written = ([x, y]) => `x ${fixed(x, 1)}, y ${fixed(y, 1)} cm`;
 
+const presetChoice = () =>
+  h(
+    "select",
+    { "aria-label": "Points are" },
+    ...Object.entries(PRESETS).map(([value, { text, help }]) => h("option", { value, text, title: help })),
+  );
+
 /** The place that the next clicked point is likely to have. */
 function proposal(preset, points, pixel) {
   const { places } = PRESETS[preset];
@@ -56,7 +63,10 @@ function asking(preset, points) {
   if (places && points.length < places.length)
     return `Click the corner at ${written(places[points.length])}.`;
   if (points.length < 4)
-    return `Click a crossing of grid lines, then type its x and y into the table. Points still needed: ${4 - points.length}.`;
+    return (
+      "Click a crossing of grid lines, then type its x and y into the table. "
+      + `Points still needed: ${4 - points.length}.`
+    );
   return "To make the fit more exact, click more points whose x and y you know.";
 }
 
@@ -103,15 +113,61 @@ function fitText({ view }, count) {
   if (!view)
     return count < 4
       ? ""
-      : "The studio cannot compute the place of the platform from these points. " + "Move one of the points.";
+      : "The studio cannot compute the place of the platform from these points. Move one of the points.";
   const scale = `One pixel shows ${fixed(view.mm_per_pixel, 2)} mm of the platform.`;
   const fourth = "Four points always fit exactly. To see the error of the fit, click a fifth point.";
   if (count === 4) return `${fourth} ${scale}`;
   return `The largest error of a point is ${fixed(view.worst_mm, 2)} mm. ${scale}`;
 }
 
+/** A point's row; it is kept while the figures in it change. */
+function pointRow(index, { change, remove, choose }) {
+  const inputs = ["x", "y"].map((axis, at) => {
+    const input = h("input", {
+      type: "number",
+      step: "any",
+      min: "-500",
+      max: "500",
+      required: true,
+      "aria-label": `Point ${index + 1}, ${axis}, cm`,
+    });
+    input.addEventListener("change", () => {
+      if (input.checkValidity()) change(index, at, input.valueAsNumber);
+    });
+    input.addEventListener("focus", () => choose(index));
+    return input;
+  });
+  const off = h("td", { class: "number" });
+  const out = h("button", {
+    type: "button",
+    class: "link",
+    text: "Remove",
+    "aria-label": `Remove point ${index + 1}`,
+    on: { click: () => remove(index) },
+  });
+  const element = h(
+    "tr",
+    {},
+    h("th", { scope: "row", text: String(index + 1) }),
+    ...inputs.map((input) => h("td", {}, input)),
+    off,
+    h("td", {}, out),
+  );
+  return {
+    element,
+    inputs,
+    show(place, error) {
+      inputs.forEach((input, at) => {
+        if (input !== document.activeElement || input.validity.valid) input.value = String(place[at]);
+      });
+      setText(off, error === undefined ? "–" : fixed(error, 2));
+      off.toggleAttribute("data-rough", error > ROUGH_MM);
+    },
+  };
+}
+
 /** The points as a table with editable places. */
-function pointTable({ change, remove, choose }) {
+function pointTable(actions) {
   const body = h("tbody");
   const element = h(
     "table",
@@ -120,42 +176,7 @@ function pointTable({ change, remove, choose }) {
     h("thead", {}, h("tr", {}, ...columnHeads(["", "x, cm", "y, cm", "off, mm", ""]))),
     body,
   );
-  let rows = [];
-
-  function row(index) {
-    const inputs = ["x", "y"].map((axis, at) => {
-      const input = h("input", {
-        type: "number",
-        step: "any",
-        min: "-500",
-        max: "500",
-        required: true,
-        "aria-label": `Point ${index + 1}, ${axis}, cm`,
-      });
-      input.addEventListener("change", () => {
-        if (input.checkValidity()) change(index, at, input.valueAsNumber);
-      });
-      input.addEventListener("focus", () => choose(index));
-      return input;
-    });
-    const off = h("td", { class: "number" });
-    const out = h("button", {
-      type: "button",
-      class: "link",
-      text: "Remove",
-      "aria-label": `Remove point ${index + 1}`,
-      on: { click: () => remove(index) },
-    });
-    const element = h(
-      "tr",
-      {},
-      h("th", { scope: "row", text: String(index + 1) }),
-      ...inputs.map((input) => h("td", {}, input)),
-      off,
-      h("td", {}, out),
-    );
-    return { element, inputs, off };
-  }
+  const rows = [];
 
   return {
     element,
@@ -163,12 +184,8 @@ function pointTable({ change, remove, choose }) {
       element.hidden = points.length === 0;
       while (rows.length > points.length) rows.pop().element.remove();
       points.forEach(({ place_cm: place }, index) => {
-        if (!rows[index]) body.append((rows[index] = row(index)).element);
-        rows[index].inputs.forEach((input, at) => {
-          if (input !== document.activeElement || input.validity.valid) input.value = String(place[at]);
-        });
-        setText(rows[index].off, offs?.[index] === undefined ? "–" : fixed(offs[index], 2));
-        rows[index].off.toggleAttribute("data-rough", offs?.[index] > ROUGH_MM);
+        if (!rows[index]) body.append((rows[index] = pointRow(index, actions)).element);
+        rows[index].show(place, offs?.[index]);
       });
     },
     focus: (index) => rows[index]?.inputs[0].select(),
@@ -178,6 +195,33 @@ function pointTable({ change, remove, choose }) {
 
 const rounded = (pixel) => pixel.map((value) => Number(value.toFixed(2)));
 
+/** The draft's points, and what can be done to them. */
+function draftPoints(draft, picture) {
+  const all = () => draft.state.setup.points;
+  function put(points, last = true) {
+    const size = [picture.size.width, picture.size.height];
+    draft.change({ points, ...(points.length ? { size } : {}) }, last);
+    if (!last) draft.check();
+  }
+  const replace = (index, patch, last = true) =>
+    put(
+      all().map((one, at) => (at === index ? { ...one, ...patch } : one)),
+      last,
+    );
+  return {
+    all,
+    add: (pixel, place) => put([...all(), { pixel: rounded(pixel), place_cm: place }]),
+    move: (index, pixel, last) => replace(index, { pixel: rounded(pixel) }, last),
+    place: (index, axis, value) =>
+      replace(index, { place_cm: all()[index].place_cm.map((one, at) => (at === axis ? value : one)) }),
+    remove: (index) => put(all().filter((_, at) => at !== index)),
+    clear: () => draft.change({ points: [] }),
+  };
+}
+
+const clearButton = (points) =>
+  h("button", { type: "button", class: "link", text: "Remove all points", on: { click: points.clear } });
+
 /**
  * Builds the part.
  * @param {Record<string, any>} draft of `setupDraft`
@@ -185,49 +229,27 @@ const rounded = (pixel) => pixel.map((value) => Number(value.toFixed(2)));
  * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
  */
 export function placePart(draft, stage) {
-  const preset = h(
-    "select",
-    { "aria-label": "Points are" },
-    ...Object.entries(PRESETS).map(([value, { text, help }]) => h("option", { value, text, title: help })),
-  );
-  const [ask, fit] = [
-    h("p", { class: "camera-ask", role: "status" }),
-    h("p", { class: "quiet", role: "status" }),
-  ];
-  const clear = h("button", {
-    type: "button",
-    class: "link",
-    text: "Remove all points",
-    on: { click: () => draft.change({ points: [] }) },
-  });
+  const points = draftPoints(draft, stage.picture);
+  const preset = presetChoice();
+  const ask = h("p", { class: "camera-ask", role: "status" });
+  const fit = h("p", { class: "quiet", role: "status" });
+  const clear = clearButton(points);
   const showAxes = axisNames(stage.picture);
   let isOn = false;
 
-  const points = () => draft.state.setup.points;
-  const size = () => [stage.picture.size.width, stage.picture.size.height];
-  function put(next, last = true) {
-    draft.change({ points: next, ...(next.length ? { size: size() } : {}) }, last);
-    if (!last) draft.check();
-  }
-  const replaced = (index, patch) => points().map((one, at) => (at === index ? { ...one, ...patch } : one));
-  const remove = (index) => put(points().filter((_, at) => at !== index));
-
   const table = pointTable({
-    change: (index, axis, value) =>
-      put(
-        replaced(index, { place_cm: points()[index].place_cm.map((one, at) => (at === axis ? value : one)) }),
-      ),
-    remove,
+    change: points.place,
+    remove: points.remove,
     choose: (index) => table.mark(index),
   });
   const marks = picturePoints(stage.picture, {
     add(pixel) {
-      if (points().length >= MOST_POINTS) return;
-      put([...points(), { pixel: rounded(pixel), place_cm: proposal(preset.value, points(), pixel) }]);
-      if (preset.value === "grid") queueMicrotask(() => table.focus(points().length - 1));
+      if (points.all().length >= MOST_POINTS) return;
+      points.add(pixel, proposal(preset.value, points.all(), pixel));
+      if (preset.value === "grid") queueMicrotask(() => table.focus(points.all().length - 1));
     },
-    move: (index, pixel, last) => put(replaced(index, { pixel: rounded(pixel) }), last),
-    remove,
+    move: points.move,
+    remove: points.remove,
     chosen: (index) => table.mark(index),
   });
 
@@ -296,7 +318,7 @@ function solved(matrix, right) {
   return rows.map((row, index) => row[size] / row[index]);
 }
 
-/** Two equations a point of the homography's eight numbers: x (g u + h v + 1) = a u + b v + c, and so for y. */
+/** Two equations a point for the homography's eight numbers: x (g u + h v + 1) = a u + b v + c, and for y. */
 function equations(points, scale) {
   return points.flatMap(({ pixel, place_cm: [x, y] }) => {
     const [u, v] = pixel.map((value) => value / scale);

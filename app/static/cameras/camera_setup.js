@@ -1,4 +1,4 @@
-/** A camera's setup, with its picture: lens, place of the platform, colours of the feet. Each change is kept. */
+/** A camera's setup on its picture: lens, place of the platform, colours of the feet. Each change is kept. */
 
 import { CONFLICT } from "../api/gaits.js";
 import { setupApi } from "../api/videos.js";
@@ -11,6 +11,7 @@ import { setupText } from "./camera_labels.js";
 import { lensPart } from "./camera_lens.js";
 import { placePart } from "./camera_place.js";
 
+/** @type {[key: string, text: string, build: typeof lensPart][]} */
 const PARTS = [
   ["lens", "Lens", lensPart],
   ["place", "Place", placePart],
@@ -18,9 +19,12 @@ const PARTS = [
 ];
 
 const FILE_HELP =
-  "Downloads the setup as a file. " + "Use this file on the command line: footfall trial VIDEO --setup FILE";
+  "Downloads the setup as a file. Use this file on the command line: footfall trial VIDEO --setup FILE";
 
-/** The first part that is missing from a setup. */
+/**
+ * The first part that is missing from a setup.
+ * @param {Record<string, any>} answer
+ */
 const firstPart = ({ setup, view }) =>
   !setup.points.length && !setup.lens ? "lens" : view ? "feet" : "place";
 
@@ -121,57 +125,64 @@ function sizeNote(draft, stage) {
   return note;
 }
 
+/** Whether the setup is complete, and whether it is kept. */
+function stateLine(draft) {
+  const line = h("p", { class: "camera-state", role: "status", "aria-label": "Setup state" });
+  draft.watch(
+    ({ answer, kept, revision, trouble }) => [answer, kept, revision, trouble],
+    ({ answer, kept, revision, trouble }) => {
+      const keeping = kept
+        ? `Saved, version ${revision}.`
+        : trouble
+          ? `The last change was not saved: ${trouble}`
+          : "Saving…";
+      line.replaceChildren(
+        h("span", { class: "dot", data: { tone: trouble ? "bad" : answer.ready ? "good" : "caution" } }),
+        h("span", { text: `${setupText(answer)} ${keeping}` }),
+      );
+    },
+  );
+  return line;
+}
+
+/** Deletes the setup, and offers to bring it back. */
+async function removeSetup(draft, back) {
+  await draft.settled();
+  const { id, setup } = draft.state;
+  await setupApi.remove(id);
+  back();
+  const undo = attempt(async () => {
+    await setupApi.restore(id);
+    back();
+  });
+  toast(`The setup “${setup.name}” is deleted.`, { action: { label: "Undo", act: undo } });
+}
+
 /**
  * Opens a setup in the panel.
- * @param {{show: Function}} page of the trials' panel
- * @param {{answer: Record<string, any>, source: Record<string, any>, frame?: number, back: {text: string, act: () => void}}} wanted `answer` is the setup as
- *   the server tells it, `source` where the picture comes from
+ * @param {Record<string, any>} page of the trials' panel
+ * @param {Object} wanted
+ * @param {Record<string, any>} wanted.answer the setup as the server tells it
+ * @param {Record<string, any>} wanted.source where the picture comes from
+ * @param {number} [wanted.frame]
+ * @param {{text: string, act: () => void}} wanted.back
  */
 export function openSetup(page, { answer, source, frame = 0, back }) {
   const draft = setupDraft(answer);
   const stage = openStage(source, frame);
   const parts = Object.fromEntries(PARTS.map(([key, , build]) => [key, build(draft, stage)]));
   const tabs = partTabs(parts, firstPart(answer));
-  const state = h("p", { class: "camera-state", role: "status", "aria-label": "Setup state" });
-  draft.watch(
-    ({ answer: now, kept, revision, trouble }) => [now, kept, revision, trouble],
-    ({ answer: now, kept, revision, trouble }) => {
-      const keeping = kept
-        ? `Saved, version ${revision}.`
-        : trouble
-          ? `The last change was not saved: ${trouble}`
-          : "Saving…";
-      state.replaceChildren(
-        h("span", { class: "dot", data: { tone: trouble ? "bad" : now.ready ? "good" : "caution" } }),
-        h("span", { text: `${setupText(now)} ${keeping}` }),
-      );
-    },
-  );
   const leave = attempt(async () => {
     await draft.settled();
     back.act();
   });
-  const remove = attempt(async () => {
-    await draft.settled();
-    const { id, setup } = draft.state;
-    await setupApi.remove(id);
-    back.act();
-    toast(`The setup “${setup.name}” is deleted.`, {
-      action: {
-        label: "Undo",
-        act: attempt(async () => {
-          await setupApi.restore(id);
-          back.act();
-        }),
-      },
-    });
-  });
+  const remove = attempt(() => removeSetup(draft, back.act));
   const element = h(
     "div",
     { class: "trial-form camera-setup" },
     h("button", { type: "button", class: "link", text: back.text, on: { click: leave } }),
     h("label", {}, h("span", { text: "Setup" }), nameField(draft)),
-    state,
+    stateLine(draft),
     sizeNote(draft, stage),
     ...tabs.elements,
     h(
@@ -201,17 +212,80 @@ async function conflict(store, error) {
   const now = await setupApi.read(store.state.id);
   store.set({ setup: now.setup, answer: now, revision: now.revision, kept: true });
   toast(
-    `Somebody changed the setup “${now.setup.name}” on another page. You now see the new version. Make your last change again.`,
+    `Somebody changed the setup “${now.setup.name}” on another page. You now see the new version. `
+      + "Make your last change again.",
     { tone: "bad", of: "studio" },
   );
+}
+
+/** Takes over what the server says of a setup that was sent to it. */
+function take(store, answer, requested) {
+  store.set({
+    answer,
+    revision: answer.revision || store.state.revision,
+    kept: Boolean(answer.id) && same(requested, store.state.setup),
+  });
+}
+
+/** Sends the setup until the newest one is kept or refused; `settled` resolves when nothing is on its way. */
+function setupKeeper(store) {
+  let [working, settled] = [false, []];
+  return {
+    isWorking: () => working,
+    async keep() {
+      if (working) return;
+      working = true;
+      let refused = null;
+      while (!store.state.kept && !same(refused, store.state.setup)) {
+        const { id, revision, setup } = store.state;
+        try {
+          take(store, await setupApi.change(id, revision, setup), setup);
+        } catch (error) {
+          refused = setup;
+          await conflict(store, error).catch((other) => {
+            store.set({ trouble: other.message });
+            report(other);
+          });
+        }
+      }
+      working = false;
+      settled.splice(0).forEach((act) => act());
+    },
+    settled: () =>
+      working
+        ? new Promise((resolve) => {
+            settled.push(resolve);
+          })
+        : Promise.resolve(),
+  };
+}
+
+/** Asks what the server says of a setup that is not kept yet; only of the newest. */
+function setupChecker(store, isKeeping) {
+  let checking = false;
+  return async () => {
+    if (checking) return;
+    checking = true;
+    let requested = null;
+    while (!isKeeping() && !store.state.kept && requested !== store.state.setup) {
+      requested = store.state.setup;
+      try {
+        take(store, await setupApi.check(requested), requested);
+      } catch {
+        break;
+      }
+    }
+    checking = false;
+  };
 }
 
 /**
  * Begins with a setup as the server sent it.
  * @param {Record<string, any>} first with `id`, `revision` and `setup`
- * @returns {Record<string, any>} `state` and `watch` as of a store: `setup` as it is on the page, `answer` what the server says of it, `kept`
- *   whether that is of this very setup, `trouble` why it could not be kept; `change(patch, last)`, where `last` is false while a finger drags and nothing is kept; `check()` asks what the server says
- *   meanwhile; `settled()` resolves when all is kept
+ * @returns {Record<string, any>} `state` and `watch` as of a store: `setup` as it is on the page, `answer`
+ *   what the server says of it, `kept` whether that is of this very setup, `trouble` why it could not be
+ *   kept; `change(patch, last)`, where `last` is false while a finger drags and nothing is kept; `check()`
+ *   asks what the server says meanwhile; `settled()` resolves when all is kept
  */
 function setupDraft(first) {
   const store = watchable({
@@ -222,52 +296,7 @@ function setupDraft(first) {
     kept: true,
     trouble: null,
   });
-  let [working, checking, settled] = [false, false, []];
-
-  function take(answer, requested) {
-    store.set({
-      answer,
-      revision: answer.revision || store.state.revision,
-      kept: Boolean(answer.id) && same(requested, store.state.setup),
-    });
-  }
-
-  async function keep() {
-    if (working) return;
-    working = true;
-    let refused = null;
-    while (!store.state.kept && !same(refused, store.state.setup)) {
-      const { id, revision, setup } = store.state;
-      try {
-        take(await setupApi.change(id, revision, setup), setup);
-      } catch (error) {
-        refused = setup;
-        await conflict(store, error).catch((other) => {
-          store.set({ trouble: other.message });
-          report(other);
-        });
-      }
-    }
-    working = false;
-    settled.splice(0).forEach((act) => act());
-  }
-
-  /** Checks a setup that is not kept yet on the server; only the newest. */
-  async function check() {
-    if (checking) return;
-    checking = true;
-    let requested = null;
-    while (!working && !store.state.kept && requested !== store.state.setup) {
-      requested = store.state.setup;
-      try {
-        take(await setupApi.check(requested), requested);
-      } catch {
-        break;
-      }
-    }
-    checking = false;
-  }
-
+  const { keep, settled, isWorking } = setupKeeper(store);
   return {
     get state() {
       return store.state;
@@ -279,12 +308,7 @@ function setupDraft(first) {
       store.set({ setup, kept: false, trouble: null });
       if (last) keep();
     },
-    check,
-    settled: () =>
-      working
-        ? new Promise((resolve) => {
-            settled.push(resolve);
-          })
-        : Promise.resolve(),
+    check: setupChecker(store, isWorking),
+    settled,
   };
 }

@@ -37,6 +37,7 @@ function frameSlider(moved) {
   number.addEventListener("change", take(number));
   return {
     element,
+    /** @param {Record<string, any>} source */
     open({ kind, frames, rate: perSecond }, frame) {
       element.hidden = kind !== "video";
       rate = perSecond || 1;
@@ -76,7 +77,7 @@ function stageSection(name, slider, picture) {
 
 /**
  * Opens the picture.
- * @param {import("../api/videos.js").Source} source
+ * @param {Record<string, any>} source of `videoSource` or `cameraSource`
  * @param {number} [frame] that is shown first
  * @param {(why: string|null) => void} [lost] gets why there is no current picture, null when there is again
  * @returns {Record<string, any>} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a

@@ -211,7 +211,7 @@ function pictureFrame(name) {
 }
 
 /**
- * Builds the view. Places are in the picture's pixels as cameras count them: 0, 0 is the first pixel's middle.
+ * Builds the view. Places are in the picture's pixels as cameras count: 0, 0 is the first pixel's middle.
  * @param {string} name of the picture, for assistive tools
  * @returns {Record<string, any>} `element`; `show(blob or address, size)`, where the size in px is told if
  *   the picture comes smaller; `drawing`, an SVG group in the picture's pixels; `layer` for points over it;

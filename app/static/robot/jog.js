@@ -1,6 +1,6 @@
 /**
- * The jog: one motor, one foot or the body moved by small steps. The buttons − and + move only the target, which is shown as a
- * ghost in 3D and in numbers; the robot moves when Move is pressed.
+ * The jog: one motor, one foot or the body moved by small steps. The buttons − and + move only the target,
+ * which is shown as a ghost in 3D and in numbers; the robot moves when Move is pressed.
  */
 
 import { api } from "../api/gaits.js";
@@ -63,10 +63,7 @@ function choiceRow({ parts, foot, size }) {
     foot,
     h(
       "label",
-      {
-        title:
-          "The buttons − and + move the target by this step, " + `${STEP_MM.least} to ${STEP_MM.most} mm`,
-      },
+      { title: `The buttons − and + move the target by this step, ${STEP_MM.least} to ${STEP_MM.most} mm` },
       h("span", { text: "Step" }),
       h("span", { class: "box", data: { unit: "mm" } }, size),
     ),
@@ -128,6 +125,18 @@ function asking(own) {
   });
 }
 
+/** Everything that an answer depends on; strokes to a tenth of a millimetre, which no motor shakes by. */
+const keyOf = ({ robot, view }, { part, foot, steps }) =>
+  JSON.stringify([
+    robotOf({ view }),
+    part,
+    foot,
+    steps,
+    robot?.robot,
+    robot?.link,
+    robot?.strokes_mm?.map((one) => one.toFixed(1)),
+  ]);
+
 function moving(store, own, body) {
   return attempt(async () => {
     const by = await needOperator(store, "The studio records your name with every movement that you start.");
@@ -136,6 +145,61 @@ function moving(store, own, body) {
     acceptRobot(store, await api.robot("jog", { ...body(), seen_mm: answer.target_mm, by }));
     own.set({ steps: [] });
   });
+}
+
+/** Takes a new step's size from its field; one that is out of range is refused. */
+function followSize(size, own) {
+  size.addEventListener("change", () => {
+    const requested = Number(size.value);
+    if (requested >= STEP_MM.least && requested <= STEP_MM.most) own.set({ size: requested });
+    else
+      toast(
+        `Enter a step between ${STEP_MM.least} and ${STEP_MM.most} mm. `
+          + `The step stays at ${own.state.size} mm.`,
+      );
+    size.value = String(own.state.size);
+  });
+}
+
+/** The group, with `poseButton` below what moves the robot. */
+function assemble(parts, rows, poseButton) {
+  return h(
+    "details",
+    { class: "more jog", role: "group", "aria-label": "Jog" },
+    h("summary", { text: "Jog: move a motor, a foot or the body in small steps" }),
+    h(
+      "div",
+      {},
+      choiceRow(parts),
+      rows.element,
+      h("div", { role: "status", "aria-label": "Jog findings" }, parts.findings),
+      parts.target,
+      h("div", { class: "buttons" }, parts.move, parts.back),
+      parts.why,
+      poseButton,
+    ),
+  );
+}
+
+/** Shows the answer to the present choice; until it comes, the words of the last one stay. */
+function showAnswer(parts, state, now, answer) {
+  parts.findings.replaceChildren(...(answer?.findings ?? []).map(findingRow));
+  const why = whyNotMove(state, answer);
+  setAllowed(parts.move, why, "Moves the robot to the target, slowly and in small moves");
+  if (answer || !now.answer) {
+    setText(parts.target, answer ? targetText(answer, now.steps) : "");
+    setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
+  }
+  setAllowed(
+    parts.back,
+    now.steps.length ? null : "The target is already the present pose of the robot.",
+    "Set the target back to the present pose of the robot. The robot does not move",
+  );
+}
+
+/** What the rest of the page knows of the jog, from the newest answer. */
+function jogOf(body, { target_mm: pose = null, wired = false }) {
+  return { ...body, pose_mm: pose, target_mm: body.steps.length ? pose : null, wired };
 }
 
 /**
@@ -152,7 +216,7 @@ export function jogPart(store, edits) {
     requested: null,
     answer: null,
   });
-  const { size, ...parts } = build((patch) => own.set(patch));
+  const parts = build((patch) => own.set(patch));
   const rows = jogRows((index, sign) => {
     const { state } = own;
     own.set({ steps: withStep(state.steps, handlesOf(state)[index], sign * state.size) });
@@ -160,52 +224,16 @@ export function jogPart(store, edits) {
   const body = () => ({ robot: robotOf(store.state), steps: own.state.steps });
   const ask = asking(own);
   let sent = null;
-  const element = h(
-    "details",
-    { class: "more jog", role: "group", "aria-label": "Jog" },
-    h("summary", { text: "Jog: move a motor, a foot or the body in small steps" }),
-    h(
-      "div",
-      {},
-      choiceRow({ ...parts, size }),
-      rows.element,
-      h("div", { role: "status", "aria-label": "Jog findings" }, parts.findings),
-      parts.target,
-      h("div", { class: "buttons" }, parts.move, parts.back),
-      parts.why,
-      poseToSegment(store, edits),
-    ),
-  );
+  const element = assemble(parts, rows, poseToSegment(store, edits));
 
   element.addEventListener("toggle", () => own.set({ isOpen: element.open }));
-  size.addEventListener("change", () => {
-    const requested = Number(size.value);
-    if (requested >= STEP_MM.least && requested <= STEP_MM.most) own.set({ size: requested });
-    else
-      toast(
-        `Enter a step between ${STEP_MM.least} and ${STEP_MM.most} mm. `
-          + `The step stays at ${own.state.size} mm.`,
-      );
-    size.value = String(own.state.size);
-  });
+  followSize(parts.size, own);
   onPress(parts.move, moving(store, own, body), (why) => toast(why));
   onPress(
     parts.back,
     () => own.set({ steps: [] }),
     (why) => toast(why),
   );
-
-  /** Everything that an answer depends on; strokes to a tenth of a millimetre, which no motor shakes by. */
-  const keyOf = ({ robot, view }, { part, foot, steps }) =>
-    JSON.stringify([
-      robotOf({ view }),
-      part,
-      foot,
-      steps,
-      robot?.robot,
-      robot?.link,
-      robot?.strokes_mm?.map((one) => one.toFixed(1)),
-    ]);
 
   function show() {
     const [state, now] = [store.state, own.state];
@@ -217,22 +245,11 @@ export function jogPart(store, edits) {
       ask({ key, body: { ...body(), look: { part: now.part, foot: now.foot } } });
     sent = key;
     const answer = answerOf(now, key);
+    const newest = answer ?? now.answer;
     showChoice(parts, now, feet);
-    rows.show(handlesOf(now), (answer ?? now.answer)?.handles ?? null, now.size);
-    parts.findings.replaceChildren(...(answer?.findings ?? []).map(findingRow));
-    const why = whyNotMove(state, answer);
-    setAllowed(parts.move, why, "Moves the robot to the target, slowly and in small moves");
-    if (answer || !now.answer) {
-      setText(parts.target, answer ? targetText(answer, now.steps) : "");
-      setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
-    }
-    setAllowed(
-      parts.back,
-      now.steps.length ? null : "The target is already the present pose of the robot.",
-      "Set the target back to the present pose of the robot. The robot does not move",
-    );
-    const { target_mm: pose = null, wired = false } = answer ?? now.answer ?? {};
-    store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null, wired } });
+    rows.show(handlesOf(now), newest?.handles ?? null, now.size);
+    showAnswer(parts, state, now, answer);
+    store.set({ jog: jogOf(body(), newest ?? {}) });
     return undefined;
   }
 

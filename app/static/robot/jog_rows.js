@@ -34,7 +34,7 @@ function whyNot(handle, row, by) {
   const [least, most] = [row.least_mm - row.target_mm, row.most_mm - row.target_mm];
   if (by >= least - ROUNDING_MM && by <= most + ROUNDING_MM) return null;
   const range = `${fixed(least)} to ${fixed(most)} mm`;
-  return `${handleName(handle)}: you can change the target by ${range}. ` + "Choose a shorter step.";
+  return `${handleName(handle)}: you can change the target by ${range}. Choose a shorter step.`;
 }
 
 /**
@@ -51,9 +51,9 @@ function jogRow(step) {
     element,
     show(handle, row, size) {
       setText(name, shortName(handle));
-      for (const [button, sign, word] of [
-        [less, -1, "minus"],
-        [more, 1, "plus"],
+      for (const { button, sign, word } of [
+        { button: less, sign: -1, word: "minus" },
+        { button: more, sign: 1, word: "plus" },
       ]) {
         setAttribute(button, "aria-label", `${handleName(handle)} ${word}`);
         const help =
@@ -63,24 +63,16 @@ function jogRow(step) {
       }
       const isMoved = row && Math.abs(row.target_mm - row.start_mm) > ROUNDING_MM;
       setText(number, row ? `${isMoved ? `${fixed(row.start_mm)} → ` : ""}${fixed(row.target_mm)} mm` : "–");
-      setAttribute(
-        bar.element,
-        "aria-label",
-        row
-          ? `${handleName(handle)}: target ${fixed(row.target_mm)} mm, range ${fixed(row.least_mm)} to ${fixed(row.most_mm)} mm`
-          : handleName(handle),
-      );
-      setAttribute(
-        bar.element,
-        "title",
-        row ? `Range ${fixed(row.least_mm)} to ${fixed(row.most_mm)} mm` : null,
-      );
+      const range = row && `${fixed(row.least_mm)} to ${fixed(row.most_mm)} mm`;
+      const figures = row ? `: target ${fixed(row.target_mm)} mm, range ${range}` : "";
+      setAttribute(bar.element, "aria-label", `${handleName(handle)}${figures}`);
+      setAttribute(bar.element, "title", row ? `Range ${range}` : null);
       if (row) place(bar, row);
     },
   };
 }
 
-/** Builds the three rows; `show` takes the handles, the studio's rows for them or null, and the step's size in mm. */
+/** Builds three rows; `show` takes handles, the studio's rows for them or null, and the step's size, mm. */
 export function jogRows(step) {
   const rows = [0, 1, 2].map((index) => jogRow((sign) => step(index, sign)));
   return {

@@ -21,7 +21,7 @@ export function handlesOf({ part, foot }) {
   return AXES.map((axis) => ({ part, foot: part === "foot" ? foot : null, motor: null, axis }));
 }
 
-/** Steps with one more: it is added to the last one of the same thing, and what adds up to nothing is left out. */
+/** Steps with one more: it is added to the last of the same thing; what adds up to nothing is left out. */
 export function withStep(steps, handle, by) {
   const before = steps.find((one) => isOf(one, handle) && Math.abs(one.by_mm + by) <= LONGEST_MM);
   if (!before) return [...steps, { ...handle, by_mm: by }];

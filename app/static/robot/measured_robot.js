@@ -1,4 +1,7 @@
-/** While a plan is carried out the 3D view shows the robot by its measured strokes, and says so with their age; else the plan, or what is grey instead. */
+/**
+ * While a plan is carried out the 3D view shows the robot by its measured strokes, and says so with their
+ * age; else the plan, or what is grey instead.
+ */
 
 import { api } from "../api/gaits.js";
 import { byId, h, setText } from "../lib/dom.js";

@@ -35,13 +35,15 @@ function choices({ ports, last }, device) {
   ];
 }
 
-/**
- * Builds the chooser.
- * @param {() => void} connect connects what is chosen
- * @returns {{element: HTMLElement, offer: HTMLElement, value: () => string|undefined}} `offer` says where a board that
- *   hung up is plugged in now
- */
-export function portChooser(store, connect) {
+function showChoices(select, options) {
+  const known = JSON.stringify(options);
+  if (select.dataset.known === known) return;
+  select.dataset.known = known;
+  select.replaceChildren(...options.map(([value, text]) => h("option", { value, text })));
+}
+
+/** The fields of the chooser; `words` and `again` stand in `offer`. */
+function deviceFields() {
   const select = h("select", { "aria-label": "Device" });
   const title = "Enter a serial device such as /dev/ttyACM0, or a network address socket://HOST:PORT";
   const address = h("input", {
@@ -59,18 +61,24 @@ export function portChooser(store, connect) {
     words,
     again,
   );
+  return { select, address, offer, words, again };
+}
+
+/**
+ * Builds the chooser.
+ * @param {() => void} connect connects what is chosen
+ * @returns {{element: HTMLElement, offer: HTMLElement, value: () => string|undefined}} `offer` says where a
+ *   board that hung up is plugged in now
+ */
+export function portChooser(store, connect) {
+  const { select, address, offer, words, again } = deviceFields();
   let found = { ports: [], last: null, again: null };
   let chosen = null;
   let timer = null;
 
   function render() {
     const { robot } = store.state;
-    const options = choices(found, robot?.device);
-    const known = JSON.stringify(options);
-    if (select.dataset.known !== known) {
-      select.dataset.known = known;
-      select.replaceChildren(...options.map(([value, text]) => h("option", { value, text })));
-    }
+    showChoices(select, choices(found, robot?.device));
     select.value = chosen ?? robot?.device ?? EMULATOR;
     address.hidden = select.value !== OTHER;
     offer.hidden = robot?.link !== "lost" || !found.again;
@@ -114,7 +122,7 @@ export function portChooser(store, connect) {
       clearInterval(timer);
       timer = robot?.link === "lost" ? setInterval(poll, POLL_MS) : null;
       render();
-      if (robot && !fixed) poll();
+      if (robot && !fixed) poll(null);
     },
   );
   return {

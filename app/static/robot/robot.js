@@ -1,4 +1,4 @@
-/** The Run step: the way from the cable to a finished run, one deliberate act after the other; while it walks, only that. */
+/** The step Run: from the cable to a finished run, one deliberate act at a time; in a run, only that run. */
 
 import { api } from "../api/gaits.js";
 import { confirmAction } from "../lib/dialogs.js";
@@ -23,7 +23,7 @@ import { sendControl } from "./send.js";
 import { strokeBars } from "./strokes.js";
 
 const CONNECT_WARNING =
-  "Connecting resets the robot's board. The motors may move for about 8 s. " + "Keep your hands away.";
+  "Connecting resets the robot's board. The motors may move for about 8 s. Keep your hands away.";
 
 const bound = (limit) => (limit === null || limit === undefined ? "a few seconds" : `${seconds(limit)} s`);
 
@@ -201,35 +201,33 @@ function showSteps(parts, ways, state) {
   }
 }
 
+/** What the robot says, and what ended a run that was interrupted. */
+function stateSentence(robot, ready) {
+  const before = robot?.previous_run;
+  const broken =
+    !ready && before?.state === "interrupted"
+      ? `The last run was interrupted. Its gait was “${before.gait_name}”. ${before.sentence}`
+      : null;
+  const stop =
+    robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${capital(robot.stop_text)}.` : null;
+  return [robot?.sentence, broken, stop].filter(Boolean).join(" ");
+}
+
+/** Why the robot cannot be armed; nothing while it is armed. */
+const armText = (robot) => whyNotHeld(robot) ?? (robot.robot === "armed" ? "" : (robot.allowed?.arm ?? ""));
+
 function showRobot(parts, ways, state) {
   const { robot } = state;
   const ready = ["ready", "connecting"].includes(robot?.link);
   const on = runIsOn(robot);
   parts.dot.dataset.tone = robotTone(robot);
   setText(parts.word, robot ? `${robot.robot}${robot.emulated ? " · emulated robot" : ""}` : "unknown");
-  const before = robot?.previous_run;
-  const broken =
-    !ready && before?.state === "interrupted"
-      ? `The last run was interrupted. Its gait was “${before.gait_name}”. ${before.sentence}`
-      : null;
-  setText(
-    parts.sentence,
-    [
-      robot?.sentence,
-      broken,
-      robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${capital(robot.stop_text)}.` : null,
-    ]
-      .filter(Boolean)
-      .join(" "),
-  );
+  setText(parts.sentence, stateSentence(robot, ready));
   for (const name of ["connect", "disconnect", "arm", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
   parts.disconnect.button.hidden = !ready;
   setText(parts.connectNote, ready ? (robot.link === "connecting" ? CONNECT_WARNING : "") : CONNECT_WARNING);
-  setText(
-    parts.armNote,
-    ready && !on ? (whyNotHeld(robot) ?? (robot.robot === "armed" ? "" : (robot.allowed?.arm ?? ""))) : "",
-  );
+  setText(parts.armNote, ready && !on ? armText(robot) : "");
   setText(parts.last, lastRun(robot));
   parts.runs.hidden = !lastRun(robot);
   parts.clear.button.hidden = robot?.allowed?.clear !== null;
@@ -254,6 +252,12 @@ function lastRun(robot) {
 
 const NO_SUMMARY = "The summary of this run is not ready yet. Wait until the page shows the summary.";
 
+/** Whether the summary is of what Send would send: the approved waypoints in the chosen range. */
+const hasSummary = (state) =>
+  Boolean(state.runSummary)
+  && state.runSummary.waypoints_hash === state.view.approval.waypoints_hash
+  && isOfRunRange(state.runSummary, state);
+
 function whyNotSend(state) {
   const { robot, view, runSummary, connected } = state;
   if (!connected) return "The studio does not answer.";
@@ -263,13 +267,7 @@ function whyNotSend(state) {
   if (!view?.approval) return "Check and approve the gait first.";
   if (whyNotHeld(robot)) return whyNotHeld(robot);
   if (robot.allowed?.send) return robot.allowed.send;
-  if (
-    !runSummary
-    || runSummary.waypoints_hash !== view.approval.waypoints_hash
-    || !isOfRunRange(runSummary, state)
-  )
-    return NO_SUMMARY;
-  return runSummary.reason ?? null;
+  return hasSummary(state) ? (runSummary.reason ?? null) : NO_SUMMARY;
 }
 
 /** Keeps the summary of what would be sent that of the shown plan. */

@@ -1,4 +1,4 @@
-/** The range of waypoints that a run sends: its first pose, and how often it repeats. A new plan resets it. */
+/** The waypoints that a run sends: its first pose, and how often it repeats. A new plan resets both. */
 
 import { h, setAttribute } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";

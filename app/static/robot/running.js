@@ -43,7 +43,7 @@ function laterEdit({ robot, view, selected, pending, gesture }) {
   const isSame = !pending.length && !gesture && view.approval?.waypoints_hash === robot.run.waypoints_hash;
   return isSame
     ? ""
-    : "The run continues with the approved version of the gait. " + "The page shows a newer version.";
+    : "The run continues with the approved version of the gait. The page shows a newer version.";
 }
 
 function actButton(store, text, verb, help) {
@@ -62,8 +62,7 @@ function actButton(store, text, verb, help) {
   };
 }
 
-/** Builds the part; it shows itself while a plan is carried out. */
-export function runningPart(store) {
+function build(store) {
   const [left, bar, done, poses, now, later] = [
     h("b"),
     h("i"),
@@ -86,10 +85,19 @@ export function runningPart(store) {
     resume.button,
     h("p", { class: "why", text: PAUSE_HELP }),
   );
+  return { element, left, bar, done, poses, now, later, pause, resume };
+}
+
+/** Builds the part; it shows itself while a plan is carried out. */
+export function runningPart(store) {
+  const { element, left, bar, done, poses, now, later, pause, resume } = build(store);
   let known = { seconds: null, at: 0, elapsed: 0, isStart: false };
   let heard = new Date();
 
-  /** The studio's figures come at each pose; between two of them the page's own clock counts. The way to the start pose is not in the time left. */
+  /**
+   * The studio's figures come at each pose; between two of them the page's own clock counts. The way to the
+   * start pose is not in the time left.
+   */
   function tick() {
     const { robot, connected } = store.state;
     if (!planIsOn(robot)) return;

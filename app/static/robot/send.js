@@ -1,6 +1,6 @@
 /**
- * "Send to robot": held for a second, by the pointer or by Enter, or pressed shortly and then a countdown that can be cancelled.
- * Either way a person has a second or more to think again.
+ * "Send to robot": held for a second, by the pointer or by Enter, or pressed shortly and then a countdown
+ * that can be cancelled. Either way a person has a second or more to think again.
  */
 
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
@@ -12,7 +12,120 @@ const COUNTDOWN_S = 3;
 const isInReach = (element) => element.checkVisibility() && !element.closest("[inert]");
 
 /**
- * @param {Record<string, any>} options
+ * The countdown that takes the place of the button; `start` is called at its end.
+ * @returns {{element: HTMLElement, count: () => Promise<void>, cancel: () => boolean}}
+ */
+function countdownPart(button, prepare, start) {
+  const number = h("b", { text: String(COUNTDOWN_S) });
+  const cancelButton = h("button", { text: "Cancel" });
+  const words = h("span", { text: "The robot starts to move when the countdown reaches 0." });
+  const element = h(
+    "div",
+    { class: "countdown", role: "group", "aria-label": "Countdown", hidden: true },
+    number,
+    words,
+    cancelButton,
+  );
+  let timer = null;
+
+  function end() {
+    clearInterval(timer);
+    timer = null;
+    [element.hidden, button.hidden] = [true, false];
+  }
+
+  function cancel() {
+    if (timer === null) return false;
+    end();
+    announce("Sending is cancelled.");
+    return true;
+  }
+
+  async function count() {
+    if (timer !== null || !(await prepare())) return;
+    const begun = performance.now();
+    [element.hidden, button.hidden] = [false, true];
+    setText(number, String(COUNTDOWN_S));
+    cancelButton.focus({ preventScroll: true });
+    element.scrollIntoView({ block: "nearest" });
+    announce(`The studio sends the gait to the robot in ${COUNTDOWN_S} seconds.`);
+    timer = setInterval(() => {
+      // Where Cancel cannot be seen or pressed any more, nothing is sent.
+      if (!isInReach(element)) {
+        cancel();
+        return;
+      }
+      const left = COUNTDOWN_S - (performance.now() - begun) / 1000;
+      if (left <= 0) {
+        end();
+        start();
+      } else setText(number, String(Math.ceil(left)));
+    }, 100);
+  }
+
+  cancelButton.addEventListener("click", cancel);
+  return { element, count, cancel };
+}
+
+/**
+ * Makes a button act when it is held for a second, by the pointer or by Enter; a shorter press calls `press`.
+ * @param {HTMLElement} button
+ * @param {{isBlocked: () => boolean, act: () => void, press: () => void}} options
+ * @returns {() => void} lets the button go, if it is held
+ */
+function holding(button, { isBlocked, act, press }) {
+  let timer = null;
+  let held = false;
+
+  function letGo() {
+    clearTimeout(timer);
+    timer = null;
+    delete button.dataset.holding;
+  }
+
+  function hold(isPointer) {
+    button.dataset.holding = "";
+    timer = setTimeout(() => {
+      held = isPointer;
+      letGo();
+      act();
+    }, HOLD_MS);
+  }
+
+  button.addEventListener("pointerdown", (event) => {
+    held = false;
+    if (isBlocked() || event.button !== 0) return;
+    letGo();
+    hold(true);
+  });
+  // Enter acts when it is let go, so that it can be held; one that was held already when the focus came here
+  // does nothing.
+  button.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" || isBlocked()) return;
+    event.preventDefault();
+    if (!event.repeat && timer === null) hold(false);
+  });
+  button.addEventListener("keyup", (event) => {
+    if (event.key !== "Enter" || timer === null) return;
+    letGo();
+    press();
+  });
+  for (const type of ["pointerup", "pointerleave", "pointercancel", "blur"])
+    button.addEventListener(type, letGo);
+  button.addEventListener("contextmenu", (event) => event.preventDefault());
+  onPress(
+    button,
+    () => {
+      if (!held) press();
+      held = false;
+    },
+    (why) => toast(why),
+  );
+  return letGo;
+}
+
+/**
+ * @param {object} options
  * @param {() => Promise<boolean>} options.prepare asked before the countdown: the operator's name is known
  * @param {() => Promise<void>} options.send carries it out
  * @returns {{element: HTMLElement, allow: (reason: string|null) => void, cancel: () => boolean}}
@@ -24,106 +137,23 @@ export function sendControl({ prepare, send }) {
     h("span", { class: "fill" }),
     h("span", { text: "Send to robot" }),
   );
-  const number = h("b", { text: String(COUNTDOWN_S) });
-  const cancelButton = h("button", { text: "Cancel" });
-  const words = h("span", { text: "The robot starts to move when the countdown reaches 0." });
-  const countdown = h(
-    "div",
-    { class: "countdown", role: "group", "aria-label": "Countdown", hidden: true },
-    number,
-    words,
-    cancelButton,
-  );
-  let timer = null;
-  let holdTimer = null;
-  let held = false;
   let reason = null;
 
   const start = async () => {
     if (!reason) await send();
   };
-
-  function cancel() {
-    if (timer === null) return false;
-    clearInterval(timer);
-    timer = null;
-    [countdown.hidden, button.hidden] = [true, false];
-    announce("Sending is cancelled.");
-    return true;
-  }
-
-  function finish() {
-    clearInterval(timer);
-    timer = null;
-    [countdown.hidden, button.hidden] = [true, false];
-    start();
-  }
-
-  async function count() {
-    if (timer !== null || !(await prepare())) return;
-    const begun = performance.now();
-    [countdown.hidden, button.hidden] = [false, true];
-    setText(number, String(COUNTDOWN_S));
-    cancelButton.focus({ preventScroll: true });
-    countdown.scrollIntoView({ block: "nearest" });
-    announce(`The studio sends the gait to the robot in ${COUNTDOWN_S} seconds.`);
-    timer = setInterval(() => {
-      // Where Cancel cannot be seen or pressed any more, nothing is sent.
-      if (!isInReach(countdown)) return cancel();
-      const left = COUNTDOWN_S - (performance.now() - begun) / 1000;
-      if (left <= 0) return finish();
-      return setText(number, String(Math.ceil(left)));
-    }, 100);
-  }
-
-  function letGo() {
-    clearTimeout(holdTimer);
-    holdTimer = null;
-    delete button.dataset.holding;
-  }
-
-  function hold(isPointer) {
-    button.dataset.holding = "";
-    holdTimer = setTimeout(async () => {
-      held = isPointer;
-      letGo();
+  const countdown = countdownPart(button, prepare, start);
+  const letGo = holding(button, {
+    isBlocked: () => Boolean(reason),
+    act: async () => {
       if (await prepare()) start();
-    }, HOLD_MS);
-  }
-
-  button.addEventListener("pointerdown", (event) => {
-    held = false;
-    if (reason || event.button !== 0) return;
-    letGo();
-    hold(true);
-  });
-  // Enter acts when it is let go, so that it can be held; one that was held already when the focus came here does nothing.
-  button.addEventListener("keydown", (event) => {
-    if (event.key !== "Enter" || reason) return;
-    event.preventDefault();
-    if (!event.repeat && holdTimer === null) hold(false);
-  });
-  button.addEventListener("keyup", (event) => {
-    if (event.key !== "Enter" || holdTimer === null) return;
-    letGo();
-    count();
-  });
-  for (const type of ["pointerup", "pointerleave", "pointercancel", "blur"])
-    button.addEventListener(type, letGo);
-  button.addEventListener("contextmenu", (event) => event.preventDefault());
-  onPress(
-    button,
-    () => {
-      if (!held) count();
-      held = false;
     },
-    (why) => toast(why),
-  );
-  cancelButton.addEventListener("click", cancel);
+    press: countdown.count,
+  });
 
   return {
-    element: h("div", {}, button, countdown),
-    cancel,
+    element: h("div", {}, button, countdown.element),
+    cancel: countdown.cancel,
     allow(why) {
       reason = why;
       button.classList.toggle("primary", !why);
@@ -134,7 +164,7 @@ export function sendControl({ prepare, send }) {
           + "Or click once to start a countdown that you can cancel",
       );
       if (!why) return;
-      cancel();
+      countdown.cancel();
       letGo();
     },
   };

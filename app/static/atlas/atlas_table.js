@@ -94,7 +94,8 @@ function head() {
 /**
  * Builds the table.
  * @param {import("../state/store.js").Store} store
- * @param {{pick: (atlas: Record<string, any>) => void, changed: (atlases: Record<string, any>[]) => void}} acts
+ * @param {{pick: (atlas: Record<string, any>) => void, changed: (atlases: Record<string, any>[]) => void}}
+ *   acts
  * @returns {{element: HTMLElement, show: () => void}} `show` reads the list anew
  */
 export function atlasTable(store, { pick, changed }) {

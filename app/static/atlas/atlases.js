@@ -69,7 +69,7 @@ function fields(list, changed) {
     pick(atlas) {
       isNamed = true;
       [robot.value, name.value] = [atlas.robot, atlas.name];
-      gaits.value = Math.min(MOST, Math.max(USUAL, atlas.gaits * 2));
+      gaits.value = String(Math.min(MOST, Math.max(USUAL, atlas.gaits * 2)));
       gaits.focus();
     },
     /** Name and number; null where one of them is wrong, which then says so. */

@@ -50,8 +50,8 @@ function item(record, compare) {
   );
 }
 
-/** Builds the part; it is empty while the gait has never been approved. */
-export function approvalHistory(store) {
+/** The part's elements: the list, and what changed since the approval that is looked at. */
+function build() {
   const list = h("ul", { class: "findings", role: "list", "aria-label": "Approvals" });
   const against = h("select", { "aria-label": "Approval compared with" });
   const difference = h("div", {
@@ -68,6 +68,12 @@ export function approvalHistory(store) {
     list,
     difference,
   );
+  return { element, list, against, difference };
+}
+
+/** Builds the part; it is empty while the gait has never been approved. */
+export function approvalHistory(store) {
+  const { element, list, against, difference } = build();
   let records = [];
   let chosen = null;
   const [beginShow, beginRefresh] = [ticket(), ticket()];

@@ -1,4 +1,4 @@
-/** The Check section: every rule's outcome, where each finding sits, and the approval of exactly this plan. */
+/** The section Check: every rule's outcome, where each finding is, and the approval of exactly this plan. */
 
 import { api } from "../api/gaits.js";
 import { approvalHistory } from "./approvals.js";
@@ -60,22 +60,23 @@ function marginList(margins) {
 
 const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) => severity === "warning");
 
+/** What is said of a gait that is not checked: why it is not any more, if it was once. */
+function uncheckedNote(view, before) {
+  const isOld = Boolean(before || view.revoked);
+  const why =
+    view.revoked
+    || (before?.word === "approved"
+      ? "The gait changed, so it is no longer approved."
+      : before && `${capital(checkGone(view, before))}.`);
+  const text = isOld
+    ? `${why} Check the gait again.`
+    : "Press Check to test every rule on the waypoints that would be sent to the robot.";
+  return h("p", { class: isOld ? "box-note" : "why", data: { tone: isOld ? "caution" : "plain" }, text });
+}
+
 function summary(view, before) {
   const { verdict } = view;
-  if (!verdict) {
-    const text = view.revoked
-      ? `${view.revoked} Check the gait again.`
-      : before?.word === "approved"
-        ? "The gait changed, so it is no longer approved. Check the gait again."
-        : before
-          ? `${capital(checkGone(view, before))}. Check the gait again.`
-          : "Press Check to test every rule on the waypoints that would be sent to the robot.";
-    return h("p", {
-      class: before || view.revoked ? "box-note" : "why",
-      data: { tone: before || view.revoked ? "caution" : "plain" },
-      text,
-    });
-  }
+  if (!verdict) return uncheckedNote(view, before);
   const warnings = warningsOf(verdict).length;
   const errors = verdict.findings.length - warnings;
   if (!errors && !warnings) return "";

@@ -1,4 +1,4 @@
-/** Sending options: merging and stop bound, set before Check because they change what is checked; and their cost. */
+/** How a plan is sent: merging and stop bound, set before Check because they change what is checked. */
 
 import { h } from "../lib/dom.js";
 import { numberField } from "../state/fields.js";
@@ -24,9 +24,10 @@ const FIELDS = [
     decimals: 2,
     ...option("merge", 1000),
     help:
-      "A waypoint is one message with a stroke for every motor. The robot stops at each waypoint, so fewer waypoints "
-      + "take less time. The studio leaves out a waypoint only if it is closer than this distance to the "
-      + "straight path of the motors. The robot itself accepts an error of 1 mm at each waypoint. "
+      "A waypoint is one message with a stroke for every motor. "
+      + "The robot stops at each waypoint, so fewer waypoints take less time. "
+      + "The studio leaves out a waypoint only if it is closer than this distance "
+      + "to the straight path of the motors. The robot itself accepts an error of 1 mm at each waypoint. "
       + "At 0, the studio sends every sample",
   },
   {

@@ -108,7 +108,8 @@ function standing(state) {
   if (failed) return [failed, "bad"];
   if (!view?.simulation)
     return [
-      "Not simulated yet. Press Simulate to see whether the robot walks, tips over or slips, and whether its motors are strong enough.",
+      "Not simulated yet. Press Simulate to see whether the robot walks, tips over or slips, "
+        + "and whether its motors are strong enough.",
       "plain",
     ];
   if (!view.simulation.fresh)
@@ -119,12 +120,8 @@ function standing(state) {
     : null;
 }
 
-/** Builds the section; `goToTime` brings the playhead to a time of the plan. */
-export function mountSimulate(store, goToTime) {
-  const run = h("button", { id: "act-simulate", text: "Simulate" });
-  const vary = h("button", { text: `${VARIATIONS} variations` });
-  const { select, element: sets } = setChooser(store);
-  const progress = progressPart();
+/** What came of the simulation, with a note where it is out of date or there is none. */
+function resultPart(store, goToTime) {
   const [note, figures, map] = [
     h("p", { class: "box-note" }),
     h("div", { class: "simulated" }),
@@ -136,6 +133,31 @@ export function mountSimulate(store, goToTime) {
     hidden: true,
     on: { click: () => openStep("design") },
   });
+  const follow = () =>
+    store.watch(
+      (state) => [simulationOf(state), simulationOver(state), state.view, state.jobs, state.selected],
+      (state) => {
+        const [simulation, words] = [simulationOf(state), standing(state)];
+        note.hidden = !words;
+        setText(note, words?.[0] ?? "");
+        setAttribute(note, "data-tone", words?.[1]);
+        help.hidden = !fallOf(state);
+        const stale = simulation !== null && simulationOver(state) === null;
+        figures.replaceChildren(...(simulation ? reportParts(simulation, goToTime) : []));
+        figures.toggleAttribute("data-stale", stale);
+        map.show(simulation?.variations ?? null, stale);
+      },
+    );
+  return { elements: [note, help, figures, map.element], follow };
+}
+
+/** Builds the section; `goToTime` brings the playhead to a time of the plan. */
+export function mountSimulate(store, goToTime) {
+  const run = h("button", { id: "act-simulate", text: "Simulate" });
+  const vary = h("button", { text: `${VARIATIONS} variations` });
+  const { select, element: sets } = setChooser(store);
+  const progress = progressPart();
+  const result = resultPart(store, goToTime);
   const press = (variations) =>
     attempt(async () => {
       await api.simulate(store.state.selected, select.value || null, variations);
@@ -143,15 +165,7 @@ export function mountSimulate(store, goToTime) {
   onPress(run, press(0), (why) => toast(why));
   onPress(vary, press(VARIATIONS), (why) => toast(why));
   byId("foot-simulate").append(h("div", { class: "solve" }, run, vary));
-  byId("simulate").append(
-    sets,
-    progress.element,
-    note,
-    help,
-    figures,
-    map.element,
-    h("p", { class: "why", text: AXIS }),
-  );
+  byId("simulate").append(sets, progress.element, ...result.elements, h("p", { class: "why", text: AXIS }));
   followSimulation(store);
 
   store.watch(
@@ -171,20 +185,7 @@ export function mountSimulate(store, goToTime) {
       progress.show(simulationJob(state));
     },
   );
-  store.watch(
-    (state) => [simulationOf(state), simulationOver(state), state.view, state.jobs, state.selected],
-    (state) => {
-      const [simulation, words] = [simulationOf(state), standing(state)];
-      note.hidden = !words;
-      setText(note, words?.[0] ?? "");
-      setAttribute(note, "data-tone", words?.[1]);
-      help.hidden = !fallOf(state);
-      const stale = simulation !== null && simulationOver(state) === null;
-      figures.replaceChildren(...(simulation ? reportParts(simulation, goToTime) : []));
-      figures.toggleAttribute("data-stale", stale);
-      map.show(simulation?.variations ?? null, stale);
-    },
-  );
+  result.follow();
 }
 
 const COLUMNS = 16;
@@ -194,8 +195,8 @@ const degrees = (radians) => fixed((radians * 180) / Math.PI);
 function cameOf({ walks, fell, max_tilt: tilt, distance, feet_error: error, ended_early: early }) {
   if (fell) return ["falls", "×", `The robot falls over, with a tilt of ${degrees(tilt)}°`];
   if (early) return ["falls", "×", `The simulation ends early: ${early.replace(/\.$/, "")}`];
-  const figures =
-    `Tilt up to ${degrees(tilt)}°, distance walked ${mm(distance)} mm, ` + `mean foot error ${mm(error)} mm`;
+  const walked = `distance walked ${mm(distance)} mm, mean foot error ${mm(error)} mm`;
+  const figures = `Tilt up to ${degrees(tilt)}°, ${walked}`;
   if (walks) return ["walks", "", `The robot walks. ${figures}`];
   return ["tips", "!", `The robot tips onto a foot that should be in the air. ${figures}`];
 }
@@ -249,7 +250,7 @@ export function robustness() {
     list,
     description,
   );
-  list.style.setProperty("--columns", COLUMNS);
+  list.style.setProperty("--columns", String(COLUMNS));
   mountKeys(list, description);
   let known = null;
   return {

@@ -1,4 +1,4 @@
-/** The figures of a simulation as people read them: one table of the whole, one of the feet, and what the rules found. */
+/** The figures of a simulation for people: tables of the whole and of the feet, and what the rules found. */
 
 import { figureTable, footName } from "../lib/tables.js";
 import { h } from "../lib/dom.js";
@@ -30,10 +30,8 @@ function greatestMotor(values) {
 
 const motorText = ({ foot, motor }) => `foot ${foot + 1}, motor ${motor + 1}`;
 
-function rows(simulation, goToTime) {
-  const { report } = simulation;
-  const at = (moment, what) => (moment === null ? null : goTo(simulation, moment, goToTime, what));
-  const [behind, force] = [greatestMotor(report.motor_error), greatestMotor(report.saturation)];
+/** Rows of figures: name, value, unit, button to their moment or null, and help. `at` builds the button. */
+function motionRows(report, at) {
   const feetMean = report.feet_error.reduce((sum, error) => sum + error, 0) / report.feet_error.length;
   return [
     [
@@ -82,6 +80,12 @@ function rows(simulation, goToTime) {
         + "The corners of this polygon are the feet that carry load. "
         + "Below 0, only the width of the soles keeps the robot from tipping",
     ],
+  ];
+}
+
+function motorRows(report, at) {
+  const [behind, force] = [greatestMotor(report.motor_error), greatestMotor(report.saturation)];
+  return [
     [
       "Motor behind",
       mm(behind.value, 2),
@@ -102,13 +106,15 @@ function rows(simulation, goToTime) {
 }
 
 function wholeTable(simulation, goToTime) {
+  const { report } = simulation;
+  const at = (moment, what) => (moment === null ? null : goTo(simulation, moment, goToTime, what));
   return h(
     "table",
     { class: "run-table simulated-table", "aria-label": "Simulation" },
     h(
       "tbody",
       {},
-      ...rows(simulation, goToTime).map(([name, value, unit, place, help]) =>
+      ...[...motionRows(report, at), ...motorRows(report, at)].map(([name, value, unit, place, help]) =>
         h(
           "tr",
           { title: help },
@@ -126,6 +132,7 @@ const FEET_HELP =
   "Error: mean distance between a foot and its planned position, at the waypoints. "
   + "Slip: distance that the sole slides while the foot should stand still";
 
+/** @param {Record<string, any>} simulation */
 const feetTable = ({ report }) =>
   figureTable(
     "Feet, mm",
@@ -164,7 +171,9 @@ export function reportParts(simulation, goToTime) {
       role: "status",
       "aria-label": "Simulated",
       text: physics.title,
-      title: `Friction coefficient ${fixed(physics.friction, 2)}. The simulation ran ${fixed(report.realtime_factor, 0)} times as fast as the robot`,
+      title:
+        `Friction coefficient ${fixed(physics.friction, 2)}. `
+        + `The simulation ran ${fixed(report.realtime_factor, 0)} times as fast as the robot`,
     }),
     ...(report.ended_early ? [h("p", { class: "why", text: report.ended_early })] : []),
     wholeTable(simulation, goToTime),

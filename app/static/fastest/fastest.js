@@ -1,4 +1,4 @@
-/** The dialog for the fastest gait: options with their prices, the search, and a gait made of what is chosen. */
+/** The dialog for the fastest gait: options with their prices, the search, and a gait of what is chosen. */
 
 import { ApiError } from "../api/gaits.js";
 import { fastestApi } from "../api/fastest.js";
@@ -76,7 +76,7 @@ function headFields(store, list, request) {
         labelled(
           "Cycles",
           cycles,
-          "Number of cycles of the gait. The gait starts in the standard stance " + "and ends at rest",
+          "Number of cycles of the gait. The gait starts in the standard stance and ends at rest",
           cyclesRefusal,
         ),
       ),

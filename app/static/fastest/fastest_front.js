@@ -1,4 +1,4 @@
-/** The front of a search as a plot: speed over margin, a mark for each stop bound; every mark can be chosen. */
+/** The front of a search as a plot: speed over margin, a mark for each stop bound; each can be chosen. */
 
 import { h, svg } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
@@ -22,7 +22,11 @@ const OUTLINES = [
 
 const inUnits = ({ pace, on_the_spot: onTheSpot }) => (onTheSpot ? pace * DEGREES : pace * 1000);
 
-/** What a mark stands for. */
+/**
+ * What a mark stands for.
+ * @param {Record<string, any>} one
+ * @param {(order: number[]) => string|null} nameOf
+ */
 export function pointText(one, nameOf) {
   const { order, margin, stop_bound: bound, on_the_spot: onTheSpot } = one;
   const limits = `stability margin ${mm(margin, 0)} mm, stop bound ${fixed(bound, 1)} s`;
@@ -32,7 +36,8 @@ export function pointText(one, nameOf) {
 /** An even step of an axis with at most five of them. */
 const stepOf = (most) => [0.5, 1, 2, 5, 10, 20].find((step) => most / step <= 5) ?? most / 5;
 
-function axes(toX, toY, [mostX, mostY], unit) {
+function axes(toX, toY, most, unit) {
+  const [mostX, mostY] = most;
   const text = (x, y, content, anchor) => svg("text", { x, y, "text-anchor": anchor, text: content });
   const bottom = FRAME.height - FRAME.bottom;
   const parts = [];
@@ -70,6 +75,45 @@ function legend(bounds) {
   );
 }
 
+/** A mark for each gait of the front. */
+function marksOf(front, bounds, at, nameOf) {
+  return front.map((one, place) => {
+    const [x, y] = at(one);
+    const mark = svg("path", { class: "fast-mark", d: OUTLINES[bounds.indexOf(one.stop_bound) % 4](x, y) });
+    const label = pointText(one, nameOf);
+    return svg(
+      "g",
+      { role: "option", tabindex: place ? "-1" : "0", "aria-selected": "false", "aria-label": label },
+      svg("title", { text: label }),
+      svg("circle", { class: "reach", cx: x, cy: y, r: 12 }),
+      mark,
+    );
+  });
+}
+
+/** Makes marks a list of which one can be chosen, by the pointer or by keys. */
+function mountChoice(marks, choose) {
+  const reach = (place) => {
+    marks.forEach((mark, other) => mark.setAttribute("tabindex", other === place ? "0" : "-1"));
+    marks[place].focus();
+  };
+  const select = (place) => {
+    marks.forEach((mark, other) => mark.setAttribute("aria-selected", String(other === place)));
+    reach(place);
+    choose(place);
+  };
+  marks.forEach((mark, place) => {
+    mark.addEventListener("click", () => select(place));
+    mark.addEventListener("keydown", (event) => {
+      const way = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+      if (!way && !["Enter", " "].includes(event.key)) return;
+      event.preventDefault();
+      if (way) reach(Math.min(Math.max(place + way, 0), marks.length - 1));
+      else select(place);
+    });
+  });
+}
+
 /**
  * Builds the plot.
  * @param {Record<string, any>[]} front the gaits that no other one beats
@@ -88,37 +132,8 @@ export function frontPlot(front, tried, nameOf, choose) {
     const [cx, cy] = at(one);
     return svg("circle", { class: "fast-dot", cx, cy, r: 2 });
   });
-  const marks = front.map((one, place) => {
-    const [x, y] = at(one);
-    const mark = svg("path", { class: "fast-mark", d: OUTLINES[bounds.indexOf(one.stop_bound) % 4](x, y) });
-    const label = pointText(one, nameOf);
-    return svg(
-      "g",
-      { role: "option", tabindex: place ? "-1" : "0", "aria-selected": "false", "aria-label": label },
-      svg("title", { text: label }),
-      svg("circle", { class: "reach", cx: x, cy: y, r: 12 }),
-      mark,
-    );
-  });
-  const reach = (place) => {
-    marks.forEach((mark, other) => mark.setAttribute("tabindex", other === place ? "0" : "-1"));
-    marks[place].focus();
-  };
-  const select = (place) => {
-    marks.forEach((mark, other) => mark.setAttribute("aria-selected", String(other === place)));
-    reach(place);
-    choose(front[place]);
-  };
-  marks.forEach((mark, place) => {
-    mark.addEventListener("click", () => select(place));
-    mark.addEventListener("keydown", (event) => {
-      const way = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-      if (!way && !["Enter", " "].includes(event.key)) return;
-      event.preventDefault();
-      if (way) reach(Math.min(Math.max(place + way, 0), marks.length - 1));
-      else select(place);
-    });
-  });
+  const marks = marksOf(front, bounds, at, nameOf);
+  mountChoice(marks, (place) => choose(front[place]));
   const unit = front.some((one) => priceOf(one).on_the_spot) ? "°/s" : "mm/s";
   const drawing = svg(
     "svg",

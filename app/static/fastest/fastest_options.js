@@ -54,12 +54,9 @@ function priceText({ price, sentence }, isLooking) {
   return isLooking ? "…" : "not known";
 }
 
-/**
- * Builds the rows.
- * @param {(change: Record<string, any>) => void} choose takes what a chosen value changes in the request
- */
-export function optionRows(choose) {
-  const rows = new Map(
+/** The rows of the groups, still without choices. */
+function groupRows() {
+  return new Map(
     GROUPS.map(({ group, label, help }) => {
       const chips = h("div", { class: "fast-chips" });
       const element = h(
@@ -71,31 +68,44 @@ export function optionRows(choose) {
       return [group, { chips, element }];
     }),
   );
+}
+
+/** Each price of a row, and a bar by which it can be compared with the others. */
+function showPrices(own, isLooking) {
+  const most = (onTheSpot) =>
+    Math.max(
+      SAME,
+      ...own.map(({ option: { price } }) =>
+        price && price.on_the_spot === onTheSpot ? (price.pace ?? 0) : 0,
+      ),
+    );
+  for (const {
+    option,
+    chip: { element: box, price: text, bar },
+  } of own) {
+    const feet = option.group === "order" ? `Feet ${option.value.order.join("-")}. ` : "";
+    setText(text, priceText(option, isLooking));
+    box.title = `${feet}${option.sentence}`;
+    box.toggleAttribute("data-none", !option.price || option.price.pace === null);
+    bar.style.setProperty("--share", String((option.price?.pace ?? 0) / most(option.price?.on_the_spot)));
+  }
+}
+
+/**
+ * Builds the rows.
+ * @param {(change: Record<string, any>) => void} choose takes what a chosen value changes in the request
+ */
+export function optionRows(choose) {
+  const rows = groupRows();
   const element = h("div", { class: "fast-rows" }, ...[...rows.values()].map((row) => row.element));
   let [options, chips, isLooking] = [[], [], false];
 
-  /** Each price of a row, and a bar by which it can be compared with the others. */
   function showGroup(name) {
-    const own = options
-      .map((option, number) => ({ option, chip: chips[number] }))
-      .filter(({ option }) => option.group === name);
-    const most = (onTheSpot) =>
-      Math.max(
-        SAME,
-        ...own.map(({ option: { price } }) =>
-          price && price.on_the_spot === onTheSpot ? (price.pace ?? 0) : 0,
-        ),
-      );
-    for (const {
-      option,
-      chip: { element: box, price: text, bar },
-    } of own) {
-      const feet = option.group === "order" ? `Feet ${option.value.order.join("-")}. ` : "";
-      setText(text, priceText(option, isLooking));
-      box.title = `${feet}${option.sentence}`;
-      box.toggleAttribute("data-none", !option.price || option.price.pace === null);
-      bar.style.setProperty("--share", String((option.price?.pace ?? 0) / most(option.price?.on_the_spot)));
-    }
+    const all = options.map((option, number) => ({ option, chip: chips[number] }));
+    showPrices(
+      all.filter(({ option }) => option.group === name),
+      isLooking,
+    );
   }
 
   const showAll = () => GROUPS.forEach(({ group }) => showGroup(group));

@@ -1,4 +1,4 @@
-/** The request of the dialog: its values, their prices as they become known, and what the chosen gait would be. */
+/** The request of the dialog: its values, their prices as they become known, and the gait to be made. */
 
 import { fastestApi } from "../api/fastest.js";
 import { h, setText } from "../lib/dom.js";
@@ -37,6 +37,16 @@ function outcomeText(option, title, isLooking) {
   );
 }
 
+/** Names of foot orders that have one, by their feet. */
+const orderNames = (options) =>
+  new Map(
+    options.filter(({ group }) => group === "order").map(({ value, name }) => [value.order.join("-"), name]),
+  );
+
+/** How many prices are known, while others are still looked for. */
+const progressText = (known, count, isLooking) =>
+  isLooking && known < count ? `The studio is computing the speeds: ${known} of ${count} are ready.` : "";
+
 /**
  * Builds the rows of options with the sentence under them.
  * @param {(request: Record<string, any>, title: string) => void} changed called with each new request
@@ -54,12 +64,7 @@ export function fastestRequest(changed) {
   function showOutcome() {
     const [known, count] = rows.counts();
     setText(outcome, outcomeText(rows.chosen(request), title(), Boolean(looking)));
-    setText(
-      state,
-      looking && known < count
-        ? `The studio is computing the speeds: ` + `${known} of ${count} are ready.`
-        : "",
-    );
+    setText(state, progressText(known, count, Boolean(looking)));
   }
 
   function refuse(sentence) {
@@ -69,11 +74,7 @@ export function fastestRequest(changed) {
 
   function hear({ options, prices, sentence }) {
     if (options) {
-      names = new Map(
-        options
-          .filter(({ group }) => group === "order")
-          .map(({ value, name }) => [value.order.join("-"), name]),
-      );
+      names = orderNames(options);
       rows.show(options, request);
       changed(request, nameOf(request.order) ?? request.order.join("-"));
     }
@@ -110,10 +111,6 @@ export function fastestRequest(changed) {
     nameOf,
     ask,
     refuse,
-    /** Changes what has no price. */
-    set(change) {
-      request = { ...request, ...change };
-    },
     end() {
       looking?.abort();
       looking = null;

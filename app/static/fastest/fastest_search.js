@@ -96,7 +96,7 @@ function shownJob({ jobs }, robot, picked) {
   );
 }
 
-/** What of a search stands in the table: with a front, those at the margin and the stop bound of the request. */
+/** What stands in the table: of a search with a front, the gaits at the request's margin and stop bound. */
 function listed({ tried = [], request, front, state }) {
   if (!front || state !== "done") return tried;
   const isAsked = (one) =>
@@ -110,9 +110,7 @@ function sentenceOf(job) {
     speed: null,
   });
   const fastest =
-    best.speed === null
-      ? ""
-      : ` Fastest gait${jobIsOn(job) ? " so far" : ""}: ` + `${speedText(priceOf(best))}.`;
+    best.speed === null ? "" : ` Fastest gait${jobIsOn(job) ? " so far" : ""}: ${speedText(priceOf(best))}.`;
   if (state === "cancelling") return sentence;
   if (jobIsOn(job)) return `${sentence}${fastest}`;
   if (state !== "done") return `The last search: ${sentence}${fastest}`;
@@ -120,16 +118,8 @@ function sentenceOf(job) {
   return `The search tried ${scope}. ${sentence}${fastest}`;
 }
 
-/**
- * Builds the search.
- * @param {import("../state/store.js").Store} store
- * @param {{request: () => Record<string, any>, nameOf: Function, use: (request: Record<string, any>) => void}} page `use` takes a gait of the
- *   table or of the front as the new request
- */
-export function searchPart(store, { request, nameOf, use }) {
-  let [job, picked, drawn] = [null, null, null];
-  const take = ({ order, heading, overlap, margin, stop_bound: bound }) =>
-    use({ ...job.request, order, heading, overlap, margin, stop_bound: bound });
+/** The elements of the search, with its table. */
+function build(table) {
   const front = h("input", { type: "checkbox" });
   const start = h("button", { type: "button", text: "Search all foot orders" });
   const [bar, words, searched] = [h("i"), h("p", { class: "quiet fast-state" }), h("p", { class: "quiet" })];
@@ -140,7 +130,6 @@ export function searchPart(store, { request, nameOf, use }) {
     h("div", { class: "progress" }, bar),
     cancel,
   );
-  const table = triedTable(nameOf, take);
   const plot = h("div");
   const error = h("p", { class: "field-error", role: "alert", hidden: true });
   const element = h(
@@ -153,6 +142,40 @@ export function searchPart(store, { request, nameOf, use }) {
     searched,
     h("div", { class: "fast-found" }, plot, table.element),
   );
+  return { element, front, start, bar, words, searched, cancel, progress, plot, error };
+}
+
+/** Shows how far a search is, and what it has found. */
+function showProgress({ start, cancel, progress, bar, words, searched }, job) {
+  const isOn = Boolean(job) && jobIsOn(job);
+  setAllowed(
+    start,
+    isOn ? "A search is running. Wait until the search ends, or cancel the search." : null,
+    "Tries every foot order and direction. " + "The search uses the other values that you have chosen above",
+  );
+  // What has the focus is not taken away with it.
+  if (!isOn && document.activeElement === cancel) start.focus();
+  progress.hidden = !isOn;
+  bar.style.transform = `scaleX(${job?.share ?? 0})`;
+  setText(words, job ? sentenceOf(job) : "");
+  setText(searched, job?.tried?.length ? `Searched with: ${searchedText(job.request)}.` : "");
+}
+
+/**
+ * Builds the search.
+ * @param {import("../state/store.js").Store} store
+ * @param {object} page
+ * @param {() => Record<string, any>} page.request
+ * @param {(order: number[]) => string|null} page.nameOf
+ * @param {(request: Record<string, any>) => void} page.use takes a gait of table or front as the new request
+ */
+export function searchPart(store, { request, nameOf, use }) {
+  let [job, picked, drawn] = [null, null, null];
+  const take = ({ order, heading, overlap, margin, stop_bound: bound }) =>
+    use({ ...job.request, order, heading, overlap, margin, stop_bound: bound });
+  const table = triedTable(nameOf, take);
+  const parts = build(table);
+  const { element, front, start, cancel, plot, error } = parts;
 
   onPress(start, async () => {
     error.hidden = true;
@@ -179,19 +202,7 @@ export function searchPart(store, { request, nameOf, use }) {
   function show(state) {
     const before = job?.id;
     job = shownJob(state, request().robot, picked);
-    const isOn = Boolean(job) && jobIsOn(job);
-    setAllowed(
-      start,
-      isOn ? "A search is running. Wait until the search ends, or cancel the " + "search." : null,
-      "Tries every foot order and direction. "
-        + "The search uses the other values that you have chosen above",
-    );
-    // What has the focus is not taken away with it.
-    if (!isOn && document.activeElement === cancel) start.focus();
-    progress.hidden = !isOn;
-    bar.style.transform = `scaleX(${job?.share ?? 0})`;
-    setText(words, job ? sentenceOf(job) : "");
-    setText(searched, job?.tried?.length ? `Searched with: ${searchedText(job.request)}.` : "");
+    showProgress(parts, job);
     if (job?.id !== before) table.show([]);
     if (job) table.show(listed(job));
     showFront(job ?? {});

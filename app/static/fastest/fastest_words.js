@@ -12,7 +12,10 @@ export function speedText({ pace, on_the_spot: onTheSpot }) {
   return onTheSpot ? `${fixed(pace * DEGREES, 2)} °/s` : `${fixed(pace * 1000, 2)} mm/s`;
 }
 
-/** The price of a gait that a search has tried. */
+/**
+ * The price of a gait that a search has tried.
+ * @param {Record<string, any>} tried
+ */
 export function priceOf({ speed, turn_rate: rate, on_the_spot: onTheSpot }) {
   if (speed === null) return { pace: null, on_the_spot: onTheSpot };
   return { pace: onTheSpot ? Math.abs(rate) : speed, on_the_spot: onTheSpot };
@@ -41,7 +44,7 @@ const STOP =
   "Longest time from a press on Stop until the robot reacts. "
   + "The robot reacts to Stop only between two moves";
 const MARGIN =
-  "Least distance between the centre of mass and the edge of the support polygon, during " + "every move";
+  "Least distance between the centre of mass and the edge of the support polygon, during every move";
 const SWAY =
   "How far the body may turn to the left and right of its course. "
   + "When the body sways, the soles of the "
@@ -60,7 +63,7 @@ export const GROUPS = [
   {
     group: "order",
     label: "Foot order",
-    help: "The order in which the feet step, and the direction in " + "which the robot walks",
+    help: "The order in which the feet step, and the direction in which the robot walks",
   },
   { group: "stop_bound", label: "Stop bound", help: STOP, text: (value) => `${fixed(value, 1)} s` },
   { group: "margin", label: "Stability margin", help: MARGIN, text: millimetres },

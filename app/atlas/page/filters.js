@@ -12,7 +12,8 @@ function rangeKeys(axes) {
 function showRanges(axes, change) {
   const place = find("ranges");
   const wanted = rangeKeys(axes);
-  const known = new Map([...place.children].map((group) => [group.dataset.key, group]));
+  const groups = /** @type {NodeListOf<HTMLElement>} */ (place.querySelectorAll(":scope > [data-key]"));
+  const known = new Map([...groups].map((group) => [group.dataset.key, group]));
   for (const [name, group] of known) if (!wanted.some((column) => column.name === name)) group.remove();
   for (const column of wanted) if (!known.has(column.name)) place.append(rangeGroup(column, change));
 }
@@ -20,10 +21,8 @@ function showRanges(axes, change) {
 function rangeGroup(column, change) {
   const group = element("fieldset", "", { "data-key": column.name });
   group.append(element("legend", titled(column)));
-  for (const [side, limits] of [
-    ["from", filters.from],
-    ["to", filters.to],
-  ]) {
+  for (const side of ["from", "to"]) {
+    const limits = filters[side];
     const label = element("label", side);
     const field = element("input", "", { type: "number", step: "any", inputmode: "decimal" });
     field.setAttribute("aria-label", `${titled(column)}, ${side}`);

@@ -1,5 +1,6 @@
 // The page: axes, colour, the gait that is pointed at and the one that is chosen, by pointer and by keys.
 const REACH = { mouse: 14, touch: 28 }; // how far from its dot a gait is still met, px
+const allButton = /** @type {HTMLButtonElement} */ (find("all"));
 const wide = matchMedia("(min-width: 1100px)");
 const state = {
   x: null,
@@ -58,9 +59,9 @@ function update() {
   showLegend(colour, state.gaits);
   showRanges([x, y, colour], update);
   showGait(state.chosen, state.onFront.has(state.chosen));
-  find("all").disabled = !isFiltered();
-  const [some, all] = [state.gaits.length, atlas.count].map((count) => count.toLocaleString("en"));
-  find("shown").textContent = `${some} of ${all} solved shown`;
+  allButton.disabled = !isFiltered();
+  const [some, total] = [state.gaits.length, atlas.count].map((count) => count.toLocaleString("en"));
+  find("shown").textContent = `${some} of ${total} solved shown`;
   find("better").textContent = betterSentence(x, y);
   find("empty").hidden = state.gaits.length > 0;
   find("empty").textContent = "No gait is left. Make the filters wider, or show all gaits.";
@@ -131,10 +132,15 @@ function onMapKey(event) {
   acts[event.key]();
 }
 
+/** The row of the table where something happened, or null. */
+function rowOf(event) {
+  return event.target.closest("tr");
+}
+
 /** Arrow keys in the table. */
 function onTableKey(event) {
-  const rows = [...find("front").tBodies[0].rows];
-  const row = event.target.closest("tr");
+  const rows = [...frontTable.tBodies[0].rows];
+  const row = rowOf(event);
   const moves = { ArrowDown: 1, ArrowUp: -1, Home: -Infinity, End: Infinity };
   if (moves[event.key] === undefined || rows.length === 0) return;
   event.preventDefault();
@@ -163,11 +169,11 @@ function installMap() {
 }
 
 function installTable() {
-  find("front").tBodies[0].addEventListener("click", (event) => {
-    const row = event.target.closest("tr");
+  frontTable.tBodies[0].addEventListener("click", (event) => {
+    const row = rowOf(event);
     if (row !== null) look(Number(row.dataset.gait), true);
   });
-  find("front").tBodies[0].addEventListener("keydown", onTableKey);
+  frontTable.tBodies[0].addEventListener("keydown", onTableKey);
 }
 
 /** A list of keys: figures, then parameters. */
@@ -200,10 +206,11 @@ function installKeys() {
     ["y", numbers],
     ["colour", colours],
   ]) {
-    fillKeys(find(id), keys, usual[id]);
+    const list = /** @type {HTMLSelectElement} */ (find(id));
+    fillKeys(list, keys, usual[id]);
     state[id] = columns.get(usual[id]);
-    find(id).addEventListener("change", () => {
-      state[id] = columns.get(find(id).value);
+    list.addEventListener("change", () => {
+      state[id] = columns.get(list.value);
       update();
     });
   }
@@ -211,8 +218,9 @@ function installKeys() {
 
 /** The filters are unfolded where there is room for them. */
 function installFolding() {
+  const folded = /** @type {HTMLDetailsElement} */ (find("filters"));
   const fold = () => {
-    find("filters").open = wide.matches;
+    folded.open = wide.matches;
   };
   wide.addEventListener("change", fold);
   fold();
@@ -230,7 +238,7 @@ function start() {
   showChoices(update);
   installMap();
   installTable();
-  find("all").addEventListener("click", () => {
+  allButton.addEventListener("click", () => {
     clearFilters();
     update();
   });

@@ -1,5 +1,6 @@
 // What stands beside the map: the legend, the front as a table, the chosen gait, and the card of a gait.
 const CARD_KEYS = ["speed", "least_margin", "step", "seconds"];
+const frontTable = /** @type {HTMLTableElement} */ (find("front"));
 
 /** An element with words, and attributes. */
 function element(name, words = "", attributes = {}) {
@@ -55,7 +56,7 @@ function showLegend(column, gaits) {
 /** The front as a table, fastest first; one row is a stop of Tab, arrow keys lead to the others. */
 function showFront(listed, gaits, chosen) {
   const keys = ["order", "step", "speed", "least_margin"].map((name) => columns.get(name));
-  const body = find("front").tBodies[0];
+  const body = frontTable.tBodies[0];
   const focused = body.contains(document.activeElement);
   body.replaceChildren(
     ...listed.map((gait) => {
@@ -75,7 +76,7 @@ function showFront(listed, gaits, chosen) {
 
 /** Marks the row of a gait, and makes it the stop of Tab. */
 function markRow(chosen, takesFocus = false) {
-  const rows = [...find("front").tBodies[0].rows];
+  const rows = [...frontTable.tBodies[0].rows];
   const marked = rows.find((row) => Number(row.dataset.gait) === chosen);
   for (const row of rows) {
     const button = row.querySelector("button");
@@ -89,8 +90,8 @@ function markRow(chosen, takesFocus = false) {
 
 /** Rolls the table, and nothing else, until a row is in sight below the table's head. */
 function showRow(row) {
-  const box = find("front").parentElement;
-  const head = find("front").tHead.offsetHeight;
+  const box = frontTable.parentElement;
+  const head = frontTable.tHead.offsetHeight;
   const [top, bottom] = [row.offsetTop - head, row.offsetTop + row.offsetHeight - box.clientHeight];
   box.scrollTop = Math.min(Math.max(box.scrollTop, bottom), top);
 }

@@ -6,8 +6,8 @@ const MARGINS = { left: 58, right: 18, top: 14, bottom: 44 }; // around the plot
 const GAP = 72; // least distance of ticks, px
 const MANY = 6000; // from so many gaits on dots are smaller
 const FONT = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
-const points = document.getElementById("points");
-const map = document.getElementById("map");
+const points = /** @type {HTMLCanvasElement} */ (document.getElementById("points"));
+const map = /** @type {HTMLCanvasElement} */ (document.getElementById("map"));
 // Painted by the processor, because the dots are blended there.
 const pen = points.getContext("2d", { willReadFrequently: true });
 const marks = map.getContext("2d");
@@ -15,6 +15,7 @@ let palette = readPalette();
 /** What was painted last: places of the gaits on the canvas, CSS px, and the scales that led there. */
 const plot = { width: 0, height: 0, across: null, up: null, places: new Float32Array(2 * atlas.count) };
 
+/** @returns {Record<string, any>} */
 function readPalette() {
   const style = getComputedStyle(document.documentElement);
   const read = (name) => style.getPropertyValue(`--${name}`).trim();

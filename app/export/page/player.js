@@ -3,6 +3,8 @@ const find = (id) => document.getElementById(id);
 const START = data.times[0];
 const END = data.times[last];
 const SHAPES = { play: "M4 2.5v11l9-5.5z", pause: "M4 3h3v10H4zM9 3h3v10H9z" };
+const scrub = /** @type {HTMLInputElement} */ (find("scrub"));
+const speed = /** @type {HTMLSelectElement} */ (find("speed"));
 const diagram = find("diagram").querySelector("svg");
 const playhead = find("playhead");
 const player = { time: START, playing: false, before: null, asked: false, from: 0, scale: 1 };
@@ -10,15 +12,15 @@ const player = { time: START, playing: false, before: null, asked: false, from: 
 function show() {
   player.asked = false;
   const state = paint(player.time);
-  const scrub = find("scrub");
-  scrub.value = player.time;
+  scrub.value = String(player.time);
   scrub.setAttribute("aria-valuetext", `${(player.time - START).toFixed(1)} s`);
   find("clock").textContent = `${(player.time - START).toFixed(2)} / ${(END - START).toFixed(1)} s`;
   find("margin-dot").style.background = toneOf(state.margin);
   find("margin").textContent =
     state.margin === null
       ? "Too few feet stand for a support polygon"
-      : `Stability margin ${(state.margin * 1000).toFixed(1)} mm${state.margin < 0 ? ", outside the support polygon" : ""}`;
+      : `Stability margin ${(state.margin * 1000).toFixed(1)} mm`
+        + (state.margin < 0 ? ", outside the support polygon" : "");
   const { places } = data.diagram;
   const { knot, part } = place(player.time);
   const x = mix(places[knot], places[Math.min(knot + 1, last)], part);
@@ -35,7 +37,7 @@ function tick(now) {
   if (player.playing) {
     const passed = player.before === null ? 0 : Math.min((now - player.before) / 1000, 0.25);
     player.before = now;
-    player.time += passed * Number(find("speed").value);
+    player.time += passed * Number(speed.value);
     if (player.time > END) player.time = START;
   }
   show();
@@ -162,11 +164,11 @@ function installDiagram() {
   });
 }
 
-find("scrub").min = START;
-find("scrub").max = END;
-find("scrub").addEventListener("input", (event) => {
+scrub.min = START;
+scrub.max = END;
+scrub.addEventListener("input", () => {
   setPlaying(false);
-  goTo(Number(event.target.value));
+  goTo(Number(scrub.value));
 });
 find("play").addEventListener("click", () => setPlaying(!player.playing));
 find("body").addEventListener("click", () => {

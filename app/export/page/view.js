@@ -1,6 +1,6 @@
 // The view: a camera that looks at the robot from above, and shapes painted from back to front.
 const data = JSON.parse(document.getElementById("motion").textContent);
-const canvas = document.getElementById("stage");
+const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById("stage"));
 // Painted by the processor: as smooth with a graphics card, and far smoother without one.
 const pen = canvas.getContext("2d", { willReadFrequently: true });
 const LIGHT = unit([0.45, -0.75, 1.9]);

@@ -29,6 +29,7 @@ from app.scripting.arrays import array_of
 from app.scripting.gaits import Gait, gait
 from app.scripting.html import Cell, paragraph, table
 from app.scripting.options import command_options
+from app.scripting.plots import motion_figure
 from app.scripting.robots import Robot
 from app.store.plain_file import write_atomically
 from core.arrays import Bools, Floats
@@ -212,9 +213,7 @@ class Plan:
             >>> import footfall as ff
             >>> figure = ff.plan("walk-manual-0").plot()  # doctest: +SKIP
         """
-        from app.scripting.plots import plan_figure
-
-        return plan_figure(self)
+        return motion_figure(self.need_motion(), self.robot.model)
 
     def __repr__(self) -> str:
         what = "waypoints" if self.gait is None else f"“{self.gait.name}”"

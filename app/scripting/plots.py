@@ -1,4 +1,4 @@
-"""A plan as a figure of matplotlib, which is loaded here alone."""
+"""A motion as a figure of matplotlib, which is loaded here alone."""
 
 from __future__ import annotations
 
@@ -9,24 +9,22 @@ import numpy as np
 
 from core.errors import InputError
 from core.motion.support_polygon import stability_margins
+from core.motion.trajectory import Trajectory
+from core.robot.model import RobotModel
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure  # type: ignore[import-not-found, unused-ignore]
-
-    from app.scripting.plans import Plan
 
 DOTS = 80
 """Of a figure in a notebook, an inch."""
 
 
-def plan_figure(plan: Plan) -> Figure:
+def motion_figure(motion: Trajectory, model: RobotModel) -> Figure:
     """Foot heights, stability margin and strokes over the plan's time, mm over s.
 
     Raises:
         InputError: matplotlib is not installed.
-        FootfallError: the plan has no motion.
     """
-    motion = plan.need_motion()
     try:
         from matplotlib.figure import Figure
     except ImportError as error:
@@ -45,17 +43,17 @@ def plan_figure(plan: Plan) -> Figure:
 
     figure = PlanFigure(figsize=(9, 6), layout="constrained")
     lift, margin, strokes = figure.subplots(3, 1, sharex=True)
-    times, names = motion.times, [f"foot {foot + 1}" for foot in range(plan.robot.legs)]
+    times, names = motion.times, [f"foot {foot + 1}" for foot in range(model.leg_count)]
     heights = (motion.feet_world[..., 2] - motion.feet_world[..., 2].min()) * 1000
-    for foot, colour in enumerate(plan.robot.model.colours):
+    for foot, colour in enumerate(model.colours):
         lift.plot(times, heights[:, foot], color=colour, label=names[foot])
         for motor in range(3):
-            strokes.plot(times, motion.strokes(plan.robot.model)[:, foot, motor] * 1000, color=colour, lw=0.8)
+            strokes.plot(times, motion.strokes(model)[:, foot, motor] * 1000, color=colour, lw=0.8)
     margins = stability_margins(motion.body_world[:, :2], motion.feet_world, motion.contact)
     margin.plot(times, np.asarray(margins) * 1000, color="black")
     margin.axhline(0.0, color="0.7", lw=0.8)
     lift.set_ylabel("lift, mm")
-    lift.legend(ncols=plan.robot.legs, fontsize="small", loc="upper right")
+    lift.legend(ncols=model.leg_count, fontsize="small", loc="upper right")
     margin.set_ylabel("stability margin, mm")
     strokes.set_ylabel("strokes, mm")
     strokes.set_xlabel("time of the plan, s")

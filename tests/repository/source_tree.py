@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import PurePosixPath
 
 from tests.support.studio_process import PROJECT
@@ -14,7 +15,9 @@ PARTS = ("core", "robot_description", "solver_jobs", "app")
 STATIC = "app/static"
 PAGE_CODE = (".js", ".css", ".html")
 
-_JS_COMMENT = re.compile(r"^[ \t]*(?:/\*.*?\*/|//[^\n]*)", re.MULTILINE | re.DOTALL)
+_JS_COMMENT = re.compile(r"^[ \t]*(?:/\*.*?\*/|//[^\n]*)|/\*\* @.*?\*/", re.MULTILINE | re.DOTALL)
+"""Comments that begin a line, and types (`/** @type {…} */`) anywhere."""
+
 _JS_IMPORT = re.compile(
     r"""^(?:import|export)\s[^;"']*?from\s*["']([^"']+)["']|^import\s*["']([^"']+)["']"""
     r"""|\bimport\(\s*["'`]([^"'`]+)["'`]""",
@@ -62,12 +65,30 @@ def is_module(name: str) -> bool:
     return place.is_dir() or place.with_suffix(".py").is_file()
 
 
+def files_imported(path: str) -> set[str]:
+    """The files of this project that a Python or JavaScript file imports."""
+    if path.endswith(".js"):
+        return set(js_imports(path, (PROJECT / path).read_text()))
+    own = [name.replace(".", "/") for name in imports(path) if name.split(".")[0] in PARTS]
+    return {f"{place}/__init__.py" if (PROJECT / place).is_dir() else f"{place}.py" for place in own}
+
+
 def folders_imported(path: str) -> set[str]:
     """The folders of this project that a Python or JavaScript file imports from."""
-    if path.endswith(".js"):
-        return {folder_of(target) for target in js_imports(path, (PROJECT / path).read_text())}
-    own = [name.replace(".", "/") for name in imports(path) if name.split(".")[0] in PARTS]
-    return {place if (PROJECT / place).is_dir() else folder_of(place) for place in own}
+    return {folder_of(target) for target in files_imported(path)}
+
+
+def circle(imported: Mapping[str, Iterable[str]]) -> list[str]:
+    """Files of which each imports the next, the first once more at the end; empty if there is no circle.
+
+    Args:
+        imported: the files that each file imports.
+    """
+    try:
+        TopologicalSorter(imported).prepare()
+    except CycleError as error:
+        return list(reversed(error.args[1]))
+    return []
 
 
 def js_imports(path: str, text: str) -> list[str]:

@@ -1,6 +1,8 @@
-"""The folders: their order, which files they hold and how many, and the sentence of each."""
+"""The folders: order, files, sizes and sentences; and that imports of files form no circle."""
 
 from __future__ import annotations
+
+from itertools import pairwise
 
 import pytest
 
@@ -20,7 +22,9 @@ from tests.repository.rooms import (
 from tests.repository.source_tree import (
     PAGE_CODE,
     STATIC,
+    circle,
     files,
+    files_imported,
     folder_of,
     folders_imported,
     js_imports,
@@ -67,11 +71,27 @@ import {
   watch,
 } from '../state/store.js';
 export { watch } from "./near.js";
+const shown = /** @type {import("../robot/jog.js").Jog} */ (watch());
 // import { old } from "../runs/runs.js";
 const later = () => import("../check/check.js");
 """
     found = [path.removeprefix(f"{STATIC}/") for path in js_imports(f"{STATIC}/plots/x.js", text)]
     assert found == ["lib/dom.js", "state/store.js", "plots/near.js", "check/check.js"]
+
+
+@pytest.mark.parametrize("suffix", [".py", ".js"])
+def test_imports_of_files_form_no_circle(suffix: str) -> None:
+    imported = {path: files_imported(path) for path in files(suffix)}
+    assert sum(map(len, imported.values())) > 500
+    assert " → ".join(circle(imported)) == ""
+
+
+def test_a_circle_is_found_in_the_order_of_its_imports() -> None:
+    imported = {"a": ["b", "x"], "b": ["c"], "c": ["x"], "d": ["a"]}
+    assert circle(imported) == []
+    found = circle({**imported, "c": ["a"]})
+    assert found[0] == found[-1]
+    assert sorted(pairwise(found)) == [("a", "b"), ("b", "c"), ("c", "a")]
 
 
 def test_every_file_stands_in_a_known_folder() -> None:

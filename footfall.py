@@ -83,7 +83,8 @@ if __name__ == _NAME and not any(
 
 _HOMES = {
     "gaits": ("Gait", "gait", "gaits", "sequence"),
-    "plans": ("Plan", "fastest", "frontier", "optimise", "plan"),
+    "plans": ("Plan",),
+    "planning": ("fastest", "frontier", "optimise", "plan"),
     "patterns": ("Pattern", "pattern", "transition"),
     "remedies": ("Remedies", "Remedy", "remedies"),
     "segments": ("Segments", "segments"),

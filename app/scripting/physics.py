@@ -13,7 +13,8 @@ from app.cli.commands_simulate import physics_set, simulation_content
 from app.scripting.gaits import Gait
 from app.scripting.html import Cell, paragraph, table
 from app.scripting.options import command_options
-from app.scripting.plans import Plan, plan
+from app.scripting.planning import plan
+from app.scripting.plans import Plan
 from app.scripting.progress import progress_bar
 from app.simulation.problem import way_problem
 from core.arrays import Floats

@@ -9,7 +9,8 @@ from typing import Any
 
 from app.scripting.gaits import Gait
 from app.scripting.html import Cell, paragraph, table
-from app.scripting.plans import Plan, drawn_document
+from app.scripting.planning import drawn_document
+from app.scripting.plans import Plan
 from core.errors import InputError
 from core.gait.gait import motion_problem
 from core.robot.model import load_robot

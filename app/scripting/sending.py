@@ -25,7 +25,8 @@ from app.runs.plan_json import sent_content
 from app.runs.record import read_record
 from app.scripting.gaits import Gait
 from app.scripting.html import Cell, table
-from app.scripting.plans import Plan, plan
+from app.scripting.planning import plan
+from app.scripting.plans import Plan
 from app.scripting.progress import progress_bar
 from app.scripting.verdicts import verdict_on
 from app.store.database import DATABASE, Database

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from app.cli.common.output import verdict_lines
 from app.scripting.gaits import Gait
 from app.scripting.html import Cell, paragraph, table
-from app.scripting.plans import Plan, plan
+from app.scripting.planning import plan
+from app.scripting.plans import Plan
 from core.checks.checked_plan import CheckedPlan, checked_plan
 from core.checks.rules import check_plan
 from core.findings import Verdict as Content

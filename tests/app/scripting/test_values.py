@@ -258,16 +258,16 @@ def test_plots_need_matplotlib_and_say_so() -> None:
 
 
 def test_a_solver_that_gives_up_is_not_called_solved(monkeypatch: pytest.MonkeyPatch) -> None:
-    plans = importlib.import_module("footfall.app.scripting.plans")
+    planning = importlib.import_module("footfall.app.scripting.planning")
     gaits = importlib.import_module("footfall.core.gait.gait")
     tiers = importlib.import_module("footfall.solver_jobs")
     verify = importlib.import_module("footfall.app.plans.verified_result").verify
 
     def fails(document: Any, method: Any) -> Any:
-        problem = gaits.motion_problem(document, plans.load_robot(document.robot))
+        problem = gaits.motion_problem(document, planning.load_robot(document.robot))
         return verify(problem, replace(tiers.solve_live(problem), status=tiers.SolveStatus.FAILED))
 
-    monkeypatch.setattr(plans, "solve", fails)
+    monkeypatch.setattr(planning, "solve", fails)
     plan = ff.plan("walk")
     assert plan.status == "failed"
     with pytest.raises(ff.CheckError, match="has no motion"):

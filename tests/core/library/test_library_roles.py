@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.gait.gait import Gait, Orientation, ring_roles
+from core.gait.foot_roles import ring_roles
+from core.gait.gait import Gait, Orientation
 from core.library.library import library, optimised_entry
 from core.library.new_gait import with_robot
 from core.robot.model import load_robot

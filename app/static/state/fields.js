@@ -1,6 +1,7 @@
 /**
  * The controls of the Optimise section: numbers that are typed, stepped with the arrow keys or dragged by
- * their name, and choices. While a number changes the document is shown changed, and one edit is made at the end.
+ * their name, and choices. While a number changes the document is shown changed, and one edit is made at
+ * the end.
  */
 
 import { clamp } from "../lib/clamp.js";

@@ -1,4 +1,6 @@
-/** The lease of the robot: one person at a time moves it; everybody else can watch, ask for it, and stop it. */
+/**
+ * The lease of the robot: one person at a time moves it; everybody else can watch, ask for it and stop it.
+ */
 
 import { api } from "../api/gaits.js";
 import { pageId } from "../api/author.js";
@@ -7,18 +9,22 @@ import { needOperator } from "./operator.js";
 import { acceptRobot, runIsOn } from "./store.js";
 import { attempt, toast } from "../lib/toasts.js";
 
+/** @typedef {import("./store.js").Store} Store */
+
 const FREE = "No one is in control. You get control when you press Connect or Arm.";
 
+/** @param {any} lease */
 const isMine = (lease) => lease?.page === pageId();
+/** @param {any} lease */
 const isTaken = (lease) => Boolean(lease?.page);
 
-/** Why this tab may not move the robot; null where it may. */
+/** Why this tab may not move the robot; null where it may. @param {any} robot */
 export function whyNotHeld(robot) {
   const lease = robot?.lease;
   return isTaken(lease) && !isMine(lease) ? lease.refusal : null;
 }
 
-/** Who holds the robot, in a sentence; nothing where nobody does. */
+/** Who holds the robot, in a sentence; nothing where nobody does. @param {any} robot */
 export function holderSentence(robot) {
   const lease = robot?.lease;
   if (!isTaken(lease)) return "";
@@ -26,7 +32,11 @@ export function holderSentence(robot) {
   return lease.is_gone ? `${lease.name} left without releasing control.` : `${lease.name} is in control.`;
 }
 
-/** Asks for the robot, gives it, keeps it, takes it over or lets it go, in the name of who sits here. */
+/**
+ * Asks for the robot, gives it, keeps it, takes it over or lets it go, in the name of who sits here.
+ * @param {Store} store
+ * @param {"ask"|"give"|"keep"|"take"|"release"} act
+ */
 function handOver(store, act) {
   return attempt(async () => {
     const why = "Other people see your name while you are in control of the robot.";
@@ -35,7 +45,13 @@ function handOver(store, act) {
   });
 }
 
-/** The question before a take-over, in the panel, with what becomes of the run. */
+/** What becomes of a run when another person takes control. @param {Record<string, any>} robot */
+function runSentence(robot) {
+  if (robot.robot === "paused") return " The run stays paused until you resume it.";
+  return runIsOn(robot) ? " The run continues, and you can pause the run." : "";
+}
+
+/** The question before a take-over, in the panel, with what becomes of the run. @param {Store} store */
 function takeOverQuestion(store) {
   const sentence = h("p");
   const [yes, no] = [
@@ -54,6 +70,7 @@ function takeOverQuestion(store) {
     sentence,
     h("div", { class: "buttons" }, yes, no),
   );
+  /** @type {any} */
   let opener = null;
   const close = () => {
     element.hidden = true;
@@ -69,29 +86,30 @@ function takeOverQuestion(store) {
   });
   return {
     element,
+    /** @param {Event} event */
     open({ currentTarget }) {
       const { robot } = store.state;
-      const run =
-        robot.robot === "paused"
-          ? " The run stays paused until you resume it."
-          : runIsOn(robot)
-            ? " The run continues, and you can pause the run."
-            : "";
       setText(
         sentence,
-        `If you take control, ${robot.lease.name} can no longer move the robot.${run} Look at the robot before you take control.`,
+        `If you take control, ${robot.lease.name} can no longer move the robot.${runSentence(robot)} `
+          + "Look at the robot before you take control.",
       );
       opener = currentTarget;
       element.hidden = false;
       no.focus();
     },
+    /** @param {boolean} isOffered */
     show: (isOffered) => {
       if (!isOffered) setAttribute(element, "hidden", true);
     },
   };
 }
 
+/** @typedef {ReturnType<typeof build>} Parts */
+
+/** @param {Store} store */
 function build(store) {
+  /** @param {string} text @param {(event: any) => void} act */
   const button = (text, act) => {
     const element = h("button", { text });
     onPress(element, act);
@@ -110,6 +128,7 @@ function build(store) {
   };
 }
 
+/** @param {any} lease @param {any} robot */
 function words(lease, robot) {
   if (!isTaken(lease)) return FREE;
   if (isMine(lease) && lease.asker) return `You are in control. ${lease.asker.name} asks for control.`;
@@ -118,20 +137,40 @@ function words(lease, robot) {
   return holderSentence(robot);
 }
 
-function show(parts, robot) {
-  const lease = robot?.lease;
-  const [taken, mine] = [isTaken(lease), isMine(lease)];
-  setText(parts.sentence, robot ? words(lease, robot) : "");
-  setText(parts.policy, robot?.link === "ready" ? (lease?.policy ?? "") : "");
-  parts.give.hidden = parts.keep.hidden = !(mine && lease.asker);
-  setText(parts.give, `Give control to ${lease?.asker?.name ?? ""}`);
-  parts.release.hidden = !mine || Boolean(lease.asker) || runIsOn(robot);
-  parts.take.hidden = !taken || mine || !lease.can_be_taken;
-  parts.question.show(!parts.take.hidden);
-  parts.ask.hidden = !taken || mine || lease.can_be_taken || lease.asker?.page === pageId();
+/**
+ * Offers what the holder can do.
+ * @param {Parts} parts
+ * @param {any} lease
+ * @param {boolean} isOn whether a run is on
+ */
+function offerToHolder({ give, keep, release }, lease, isOn) {
+  const mine = isMine(lease);
+  give.hidden = keep.hidden = !(mine && lease.asker);
+  setText(give, `Give control to ${lease?.asker?.name ?? ""}`);
+  release.hidden = !mine || Boolean(lease.asker) || isOn;
 }
 
-/** Notifies the holder of a request, and the asker of the answer, in any part of the page. */
+/** Offers what everybody else can do. @param {Parts} parts @param {any} lease */
+function offerToOthers({ take, ask, question }, lease) {
+  const isOther = isTaken(lease) && !isMine(lease);
+  take.hidden = !isOther || !lease.can_be_taken;
+  question.show(!take.hidden);
+  ask.hidden = !isOther || lease.can_be_taken || lease.asker?.page === pageId();
+}
+
+/** @param {Parts} parts @param {any} robot */
+function show(parts, robot) {
+  const lease = robot?.lease;
+  setText(parts.sentence, robot ? words(lease, robot) : "");
+  setText(parts.policy, robot?.link === "ready" ? (lease?.policy ?? "") : "");
+  offerToHolder(parts, lease, runIsOn(robot));
+  offerToOthers(parts, lease);
+}
+
+/**
+ * Notifies the holder of a request, and the asker of the answer, in any part of the page.
+ * @param {Store} store
+ */
 function tell(store) {
   let before = store.state.robot?.lease ?? null;
   store.watch(
@@ -152,7 +191,11 @@ function tell(store) {
   );
 }
 
-/** Builds the part of the step Run that shows who is in control. While a run is on it is there for whoever has to act on it. */
+/**
+ * Builds the part of the step Run that shows who is in control. While a run is on it is there for whoever
+ * has to act on it.
+ * @param {Store} store
+ */
 export function leasePart(store) {
   const parts = build(store);
   store.watch(

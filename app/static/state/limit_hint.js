@@ -8,14 +8,18 @@ import { isDrawing } from "./live_plan.js";
 /**
  * The hint of a field; empty where the field has no `limit`.
  * @param {import("./store.js").Store} store
- * @param {Record<string, any>} field of `numberField`
+ * @param {import("./fields.js").NumberField} field
  */
 export function limitHint(store, field) {
   const element = h("span", { class: "field-limit", role: "status", hidden: true });
+  /** @type {AbortController|null} */
   let asked = null;
   return {
     element,
-    /** Asks once a change; the number's own value plays no part. */
+    /**
+     * Asks once a change; the number's own value plays no part.
+     * @param {import("../document/drawable.js").GaitDocument} document
+     */
     async begin(document) {
       if (!field.limit || !isDrawing(document)) return;
       const mine = new AbortController();
@@ -25,7 +29,7 @@ export function limitHint(store, field) {
         .limit(store.state.selected, { document, which: field.limit }, mine.signal)
         .catch(() => null);
       if (asked !== mine || value === null) return;
-      element.textContent = `Possible up to ${fixed(field.fromSI(value))} ${field.unit}`;
+      element.textContent = `Possible up to ${fixed(field.fromSI?.(value))} ${field.unit}`;
       element.hidden = false;
     },
     end() {

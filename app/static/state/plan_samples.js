@@ -4,6 +4,8 @@ import { clamp } from "../lib/clamp.js";
 
 /**
  * The robot's time on the plan, s: from the server, else from the waypoints that it reached.
+ * @param {any} robot
+ * @param {any} view
  * @returns {number|null} null while it is not streaming this plan
  */
 export function robotTime(robot, view) {
@@ -17,7 +19,7 @@ export function robotTime(robot, view) {
   return times[clamp(run.reached - 1, 0, times.length - 1)] ?? null;
 }
 
-/** The strokes of the waypoint sent last, mm, or null if unknown. */
+/** The strokes of the waypoint sent last, mm, or null if unknown. @param {any} robot @param {any} view */
 export function commandedStrokes(robot, view) {
   if (robot?.commanded_mm) return robot.commanded_mm;
   const run = robot?.run;

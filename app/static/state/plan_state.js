@@ -1,5 +1,6 @@
 /** The state of a plan in a word or two, with its tone. */
 
+/** @type {Record<string, string[]>} */
 const TEXTS = {
   live: ["Plan found", "good"],
   optimised: ["Optimised", "good"],
@@ -11,25 +12,49 @@ const TEXTS = {
 };
 const ROUNDING_M = 1e-6;
 
-/** Half of what a margin is rounded to where it is shown, m: a motion runs along the margin that it was asked for. */
+/** Half of what a shown margin is rounded to, m: a motion runs along the margin that it was asked for. */
 const SHOWN_M = 5e-5;
 
-/** Whether a drawing's motion has less than the margin that its robot needs as sent. */
+/** @typedef {Record<string, any>} Plan */
+
+/**
+ * Plans that are not what their source promises; the first that is true of a plan names its state.
+ * @type {[(plan: Plan) => any, string, string][]}
+ */
+const EXCEPTIONS = [
+  [({ live }) => live?.status === "infeasible", "No motion", "bad"],
+  [({ poses }) => poses?.explanation.length, "No motion", "bad"],
+  [({ source }) => source === "adapted", "Adapted, not solved", "caution"],
+  [({ times }) => !times.length, "No motion", "bad"],
+  [hasFinishedParts, "No motion", "bad"],
+  [({ source }) => source === "draft", "No answer", "bad"],
+  [({ source, refusal }) => source === "recorded" && refusal, "Recorded, out of reach", "bad"],
+  [({ source, refusal }) => source === "manual" && refusal, "By hand, out of reach", "bad"],
+  [({ source, balance }) => source === "manual" && balance < -ROUNDING_M, "By hand, off balance", "bad"],
+];
+
+/** Whether a draft has parts, each of which the solver finished. @param {Plan} plan */
+function hasFinishedParts({ source, parts }) {
+  return (
+    source === "draft"
+    && parts?.length
+    && !parts.some((/** @type {Record<string, any>} */ part) => part.broke_off)
+  );
+}
+
+/** Whether a drawing's motion has less than the margin that its robot needs as sent. @param {Plan} plan */
 export const isThin = ({ source, balance, robot_margin: needed }) =>
   ["live", "optimised"].includes(source) && balance !== null && balance < needed - SHOWN_M;
 
-/** Word and tone of a plan's state. */
+/**
+ * Word and tone of a plan's state.
+ * @param {Plan|null|undefined} plan
+ * @returns {string[]}
+ */
 export function planState(plan) {
   if (!plan) return ["No plan", "quiet"];
-  if (plan.live?.status === "infeasible") return ["No motion", "bad"];
-  if (plan.poses?.explanation.length) return ["No motion", "bad"];
-  if (plan.source === "adapted") return ["Adapted, not solved", "caution"];
-  if (!plan.times.length) return ["No motion", "bad"];
-  if (plan.source === "draft" && plan.parts?.length && !plan.parts.some((part) => part.broke_off))
-    return ["No motion", "bad"];
-  if (plan.source === "draft") return ["No answer", "bad"];
-  if (plan.source === "recorded" && plan.refusal) return ["Recorded, out of reach", "bad"];
-  if (plan.source === "manual" && plan.refusal) return ["By hand, out of reach", "bad"];
-  if (plan.source === "manual" && plan.balance < -ROUNDING_M) return ["By hand, off balance", "bad"];
-  return TEXTS[plan.source] ?? [plan.source, "quiet"];
+  const exception = EXCEPTIONS.find(([applies]) => applies(plan));
+  if (!exception) return TEXTS[plan.source] ?? [plan.source, "quiet"];
+  const [, words, tone] = exception;
+  return [words, tone];
 }

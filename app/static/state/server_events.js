@@ -7,84 +7,69 @@ import { acceptLine, acceptRobot, acceptSources, acceptSteps, acceptView, withJo
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 5000;
 
+/**
+ * @typedef {import("./store.js").Store} Store
+ * @typedef {Record<string, any>} Message
+ */
+
+/** @type {(text: string) => void} */
 let send = () => {};
 
-/** Sends text to the studio over the socket if it is open. */
+/** Sends text to the studio over the socket if it is open. @param {string} text */
 export const sendToStudio = (text) => send(text);
 
-function receive(store, message, onHello) {
-  switch (message.type) {
-    case "hello":
-      store.set({
-        connected: true,
-        greeted: true,
-        version: message.version,
-        gaits: message.gaits,
-        robot: message.robot,
-        storage: message.storage,
-        jobs: message.jobs.reduce((jobs, job) => withJob(jobs, job), []),
-      });
-      onHello();
-      break;
-    case "gaits":
-      store.set({ gaits: message.gaits });
-      break;
-    case "gait":
-      acceptView(store, message.view);
-      acceptLine(store, message.view);
-      break;
-    case "steps":
-      acceptSteps(store, message);
-      break;
-    case "sources":
-      acceptSources(store, message);
-      break;
-    case "job":
-      store.set({ jobs: withJob(store.state.jobs, message.job) });
-      break;
-    case "storage":
-      store.set({ storage: message.storage });
-      break;
-    case "search":
-      store.set({ poseSearch: message.search });
-      break;
-    case "pattern":
-      store.set({ pattern: message });
-      break;
-    case "setups":
-      store.set({ setups: message.setups });
-      break;
-    case "cameras":
-      store.set({ cameras: message.cameras });
-      break;
-    case "video":
-      store.set({ videoChanged: message.video });
-      break;
-    case "trials":
-      store.set({ trialMade: { id: message.trial } });
-      break;
-    case "trial":
-      store.set({ trialChanges: { ...store.state.trialChanges, [message.trial.id]: message.trial } });
-      break;
-    case "robot":
-      acceptRobot(store, message.robot);
-      break;
-    default:
-      break;
-  }
-}
+/**
+ * What each message changes, by its type.
+ * @type {Record<string, (store: Store, message: Message) => void>}
+ */
+const RECEIVERS = {
+  hello: (store, { version, gaits, robot, storage, jobs }) =>
+    store.set({
+      connected: true,
+      greeted: true,
+      version,
+      gaits,
+      robot,
+      storage,
+      jobs: jobs.reduce(withJob, []),
+    }),
+  gaits: (store, { gaits }) => store.set({ gaits }),
+  gait: (store, { view }) => {
+    acceptView(store, view);
+    acceptLine(store, view);
+  },
+  steps: acceptSteps,
+  sources: acceptSources,
+  job: (store, { job }) => store.set({ jobs: withJob(store.state.jobs, job) }),
+  storage: (store, { storage }) => store.set({ storage }),
+  search: (store, { search }) => store.set({ poseSearch: search }),
+  pattern: (store, pattern) => store.set({ pattern }),
+  setups: (store, { setups }) => store.set({ setups }),
+  cameras: (store, { cameras }) => store.set({ cameras }),
+  video: (store, { video }) => store.set({ videoChanged: video }),
+  trials: (store, { trial }) => store.set({ trialMade: { id: trial } }),
+  trial: (store, { trial }) =>
+    store.set({ trialChanges: { ...store.state.trialChanges, [trial.id]: trial } }),
+  robot: (store, { robot }) => acceptRobot(store, robot),
+};
 
-/** Keeps a connection to /api/events; `onHello` runs after every greeting, also after a reconnection. */
+/**
+ * Keeps a connection to /api/events.
+ * @param {Store} store
+ * @param {() => void} onHello runs after every greeting, also after a reconnection
+ */
 export function listen(store, onHello) {
   let wait = FIRST_WAIT_MS;
   let closeSocket = () => {};
   onRenamed(() => closeSocket());
 
+  /** @param {string} data */
   function take(data) {
     wait = FIRST_WAIT_MS;
     const message = JSON.parse(data);
     if (message.type === "beat") send("here");
-    else receive(store, message, onHello);
+    RECEIVERS[message.type]?.(store, message);
+    if (message.type === "hello") onHello();
   }
 
   function closed() {
@@ -93,6 +78,7 @@ export function listen(store, onHello) {
     wait = Math.min(wait * 2, LONGEST_WAIT_MS);
   }
 
+  /** @param {{socket: WebSocket, early: string[]}} from */
   function follow({ socket, early }) {
     closeSocket = () => socket.close();
     send = (text) => {

@@ -5,22 +5,39 @@ import { latestOnly } from "../lib/latest_only.js";
 import { shownPlan } from "./store.js";
 import { report } from "../lib/toasts.js";
 
+/** @typedef {import("./store.js").State} State */
+
 const SIMULATE = "simulate";
 
-/** The simulation of the shown gait, also one of an older version; null where there is none, or it is not there yet. */
+/**
+ * The simulation of the shown gait, also one of an older version; null where there is none, or it is not
+ * there yet.
+ * @param {{simulation?: any, view?: any}} state
+ */
 export function simulationOf({ simulation, view }) {
   return simulation && view?.simulation?.key === simulation.key ? simulation : null;
 }
 
-/** The simulation of exactly the plan that is shown, or null: an edit, an iteration and another plan have none. */
+/**
+ * The simulation of exactly the plan that is shown, or null: an edit, an iteration and another plan have
+ * none.
+ * @param {{simulation?: any, view?: any, iterate?: any, tryout?: any, live?: any}} state
+ */
 export function simulationOver(state) {
   const simulation = simulationOf(state);
   if (!simulation || !state.view.simulation.fresh) return null;
   return simulation.waypoints_hash === shownPlan(state)?.waypoints_hash ? simulation : null;
 }
 
-/** The plan's time of a moment of the simulated robot, straight between samples. */
-export function planTimeOf({ motion: { robot_times: robot, times } }, moment) {
+/**
+ * The plan's time of a moment of the simulated robot, straight between samples.
+ * @param {Record<string, any>} simulation
+ * @param {number} moment
+ * @returns {number}
+ */
+export function planTimeOf({ motion: { times, ...motion } }, moment) {
+  /** @type {number[]} */
+  const robot = motion.robot_times;
   let at = robot.findIndex((time) => time >= moment);
   if (at < 0) at = robot.length - 1;
   if (at === 0 || robot[at] === robot[at - 1]) return times[at];
@@ -28,7 +45,7 @@ export function planTimeOf({ motion: { robot_times: robot, times } }, moment) {
   return times[at - 1] + part * (times[at] - times[at - 1]);
 }
 
-/** The simulation that is on for the shown gait, or null. */
+/** The simulation that is on for the shown gait, or null. @param {Pick<State, "jobs"|"selected">} state */
 export const simulationJob = ({ jobs, selected }) =>
   jobs.find(
     (job) =>
@@ -37,9 +54,14 @@ export const simulationJob = ({ jobs, selected }) =>
       && ["queued", "running", "cancelling"].includes(job.state),
   ) ?? null;
 
+/** @type {WeakMap<object, Record<string, any>>} */
 const traces = new WeakMap();
 
-/** A simulation in the form in which a run is laid over the plots. */
+/**
+ * A simulation in the form in which a run is laid over the plots.
+ * @param {any} simulation
+ * @returns {any} the trace, or null
+ */
 export function traceOf(simulation) {
   if (!simulation) return null;
   const { motion } = simulation;
@@ -48,14 +70,16 @@ export function traceOf(simulation) {
       plan_times: motion.times,
       laps: motion.times.map(() => 0),
       measured_mm: motion.strokes_mm,
-      foot_heights_mm: motion.feet.map((feet) => feet.map((foot) => foot[2] * 1000)),
-      margins_mm: motion.margins_mm.map((margin) => [margin]),
+      foot_heights_mm: motion.feet.map((/** @type {number[][]} */ feet) =>
+        feet.map((foot) => foot[2] * 1000),
+      ),
+      margins_mm: motion.margins_mm.map((/** @type {number} */ margin) => [margin]),
     });
   }
   return traces.get(motion);
 }
 
-/** Keeps the store's `simulation` that of the shown gait. */
+/** Keeps the store's `simulation` that of the shown gait. @param {import("./store.js").Store} store */
 export function followSimulation(store) {
   const offer = latestOnly(async (key) => {
     try {
@@ -76,10 +100,17 @@ export function followSimulation(store) {
   );
 }
 
-/** Word and tone of a simulation. */
-export function simulationText({ report, findings }) {
-  if (report.fell) return ["Falls over", "bad"];
-  if (report.ended_early) return ["Ended early", "bad"];
-  if (findings.some(({ severity }) => severity === "error")) return ["Tips", "bad"];
+/** Whether a finding is an error. @param {Record<string, any>} finding */
+export const isError = ({ severity }) => severity === "error";
+
+/**
+ * Word and tone of a simulation.
+ * @param {Record<string, any>} simulation
+ * @returns {string[]}
+ */
+export function simulationText({ report: outcome, findings }) {
+  if (outcome.fell) return ["Falls over", "bad"];
+  if (outcome.ended_early) return ["Ended early", "bad"];
+  if (findings.some(isError)) return ["Tips", "bad"];
   return findings.length ? ["Walks, with warnings", "caution"] : ["Walks", "good"];
 }

@@ -1,15 +1,16 @@
 /**
- * The operations that the timeline offers: what each would make of the document, its name in the history, or why not.
+ * The operations that the timeline offers: what each would make of the document, its name in the history,
+ * or why not.
  *
- * `outcomeOf` answers with `{apply, document, label, note, clipped, selection}` or with `{reason}`. `apply` goes from
- * document to document, so that it can be put on top of what another tab did meanwhile; `document` is what is shown as
- * preview, `clipped` says what does not fit.
+ * `outcomeOf` answers with `{apply, document, label, note, clipped, selection}` or with `{reason}`. `apply`
+ * goes from document to document, so that it can be put on top of what another tab did meanwhile;
+ * `document` is what is shown as preview, `clipped` says what does not fit.
  */
 
 import { capital, counted } from "../lib/format.js";
 import { drawnRows, isDrawn, repeatedRows } from "./drawn_timeline.js";
 import { heldMirrored, heldReversed, heldTurned } from "./held_feet.js";
-import { allFeet, isWhole, lengthOf, regionText, wholeOf } from "./region.js";
+import { allFeet, isWhole, lengthOf, regionText, rowsOfFeet, wholeOf } from "./region.js";
 import { whyNotDrawn } from "./drawable.js";
 import {
   blockOf,
@@ -26,21 +27,36 @@ import {
   withLocks,
 } from "./timeline_operators.js";
 
+/**
+ * @typedef {import("./drawable.js").GaitDocument} GaitDocument
+ * @typedef {import("./region.js").Region} Region
+ * @typedef {{document: GaitDocument, region: Region, mirror: number[]|null, amount: number, words: string}}
+ *   Context
+ * @typedef {Record<string, any>} Outcome
+ * @typedef {{name: string, help: string, outcome: (context: Context) => Outcome, columns?: boolean,
+ *   amount?: {name: string, unit: string, least: number, most: number, factor?: boolean,
+ *   start: (context: {document: GaitDocument, region: Region}) => number}}} Operation
+ */
+
 const MOST_ITERATIONS = 20;
 export const MOST_SAMPLES = 2000;
 
-const sampleCount = ({ timeline }) => timeline.feet[0].length;
+/** @param {GaitDocument} document */
+const sampleCount = (document) => rowsOfFeet(document)[0].length;
+/** @param {string} row */
 const swingCount = (row) => row.split("1").filter(Boolean).length;
+/** @param {GaitDocument} document @param {number} samples */
 const seconds = (document, samples) =>
   `${(Math.max(0, samples - 1) * document.timeline.sample_time).toFixed(1)} s`;
 
 /** What of a region does not fit behind a sample, in words; null where all of it does. */
-const clippedText = (over) => {
+const clippedText = (/** @type {number} */ over) => {
   if (over <= 0) return null;
   if (over === 1) return "The last sample of the result does not fit into the timeline and is cut off.";
   return `The last ${over} samples of the result do not fit into the timeline and are cut off.`;
 };
 
+/** @param {GaitDocument} before @param {GaitDocument} after */
 const lengthNote = (before, after) => {
   const [old, now] = [sampleCount(before), sampleCount(after)];
   return (
@@ -49,17 +65,26 @@ const lengthNote = (before, after) => {
   );
 };
 
-/** Where a mirrored order draws the mirrored timeline, the order goes along. */
+/**
+ * Where a mirrored order draws the mirrored timeline, the order goes along.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {number[]} mirror
+ * @returns {GaitDocument}
+ */
 function mirroredWhole(document, region, mirror) {
   if (!isWhole(document, region)) return mirrored(document, region, mirror);
   const after = heldMirrored(mirrored(document, region, mirror), mirror);
   if (!isDrawn(document)) return after;
   const legs = mirror.length;
   const turn = Math.floor((legs * (document.direction - 1)) / 4);
-  const order = document.order.map((foot) => ((mirror[(foot - 1 + turn) % legs] - turn + legs) % legs) + 1);
+  const order = document.order.map(
+    (/** @type {number} */ foot) => ((mirror[(foot - 1 + turn) % legs] - turn + legs) % legs) + 1,
+  );
   return isDrawn({ ...after, order }) ? { ...after, order } : after;
 }
 
+/** @param {Region} region @param {number[]} mirror */
 function mirrorNote(region, mirror) {
   const pairs = mirroredFeet(region, mirror)
     .filter((foot) => foot < mirror[foot])
@@ -67,31 +92,34 @@ function mirrorNote(region, mirror) {
   return `These pairs of feet exchange their cells: ${pairs.join(", ")}.`;
 }
 
-function mirror({ document, region, mirror: map, words }) {
+/** @param {Context} context @returns {Outcome} */
+function mirror({ region, mirror: map, words }) {
   if (!map) {
     const reason = "A gait can be mirrored only if its heading lies along a leg or halfway between two legs.";
     return { reason };
   }
   return {
-    apply: (now) => mirroredWhole(now, region, map),
+    apply: (/** @type {GaitDocument} */ now) => mirroredWhole(now, region, map),
     label: `Mirror ${words}`,
     note: mirrorNote(region, map),
   };
 }
 
+/** @param {GaitDocument} before @param {GaitDocument} after */
 function vanishing(before, after) {
-  const foot = before.timeline.feet.findIndex(
-    (row, index) => swingCount(after.timeline.feet[index]) < swingCount(row),
-  );
+  const rows = rowsOfFeet(after);
+  const foot = rowsOfFeet(before).findIndex((row, index) => swingCount(rows[index]) < swingCount(row));
   return foot < 0
     ? null
     : `At this length, a swing of foot ${foot + 1} would disappear or touch the next swing. `
         + "Enter a larger number of samples.";
 }
 
+/** @param {Context} context @returns {Outcome} */
 function stretch({ document, region, words, amount }) {
   const grows = allFeet(document, region);
-  const apply = (now) => (grows ? stretched : stretchedInPlace)(now, region, amount);
+  const apply = (/** @type {GaitDocument} */ now) =>
+    (grows ? stretched : stretchedInPlace)(now, region, amount);
   const after = apply(document);
   const [first] = region.samples;
   const clipped = grows ? null : clippedText(first + amount - sampleCount(document));
@@ -106,11 +134,15 @@ function stretch({ document, region, words, amount }) {
   };
 }
 
+/** @param {Context} context @returns {Outcome} */
 function repeatWhole({ document, amount }) {
   const iterations = document.iterations * amount;
   if (iterations > MOST_ITERATIONS) {
-    const reason = `The gait would have ${iterations} iterations. At most ${MOST_ITERATIONS} iterations are possible.`;
-    return { reason };
+    return {
+      reason:
+        `The gait would have ${iterations} iterations. `
+        + `At most ${MOST_ITERATIONS} iterations are possible.`,
+    };
   }
   const feet = document.segment_table
     ? null
@@ -126,12 +158,11 @@ function repeatWhole({ document, amount }) {
     return {
       reason:
         `The whole gait cannot be repeated, because its ${document.iterations} iterations `
-        + "have different lengths. "
-        + "Select the samples that you want to repeat.",
+        + "have different lengths. Select the samples that you want to repeat.",
     };
   }
   return {
-    apply: (now) => ({ ...now, iterations }),
+    apply: (/** @type {GaitDocument} */ now) => ({ ...now, iterations }),
     document: shown,
     label: `Iterations to ${iterations}`,
     drawing: false,
@@ -142,25 +173,27 @@ function repeatWhole({ document, amount }) {
   };
 }
 
+/** @param {Context} context @returns {Outcome} */
 function repeat(context) {
   const { document, region, amount } = context;
   if (isWhole(document, region)) return repeatWhole(context);
   const after = repeated(document, region, amount);
   return {
-    apply: (now) => repeated(now, region, amount),
+    apply: (/** @type {GaitDocument} */ now) => repeated(now, region, amount),
     note: lengthNote(document, after),
     label: `Repeat samples ${region.samples[0] + 1}–${region.samples[1] + 1} ${amount}×`,
     selection: { ...region, samples: [region.samples[0], region.samples[0] + lengthOf(region) * amount - 1] },
   };
 }
 
+/** @param {Context} context @returns {Outcome} */
 function rotate({ document }) {
   const direction = (document.direction % 4) + 1;
-  const feet = turnedRows(document.timeline.feet, direction - document.direction);
+  const feet = turnedRows(rowsOfFeet(document), direction - document.direction);
   const by = Math.floor(((direction - document.direction) * feet.length) / 4);
   const shown = heldTurned({ ...document, direction, timeline: { ...document.timeline, feet } }, by);
   return {
-    apply: (now) => ({ ...now, direction }),
+    apply: (/** @type {GaitDocument} */ now) => ({ ...now, direction }),
     document: shown,
     label: `Direction to ${direction}`,
     drawing: false,
@@ -170,6 +203,7 @@ function rotate({ document }) {
   };
 }
 
+/** @param {Context} context @returns {Outcome} */
 function duplicate({ document, region, words }) {
   const [, last] = region.samples;
   const rest = sampleCount(document) - 1 - last;
@@ -180,7 +214,8 @@ function duplicate({ document, region, words }) {
         + "Use Repeat instead, because Repeat makes the timeline longer.",
     };
   }
-  const apply = (now) => withBlock(now, [region.feet[0], last + 1], blockOf(now, region));
+  const apply = (/** @type {GaitDocument} */ now) =>
+    withBlock(now, [region.feet[0], last + 1], blockOf(now, region));
   const clipped = clippedText(lengthOf(region) - rest);
   return {
     apply,
@@ -194,16 +229,18 @@ function duplicate({ document, region, words }) {
   };
 }
 
+/** @param {Context} context @returns {Outcome} */
 function insert({ document, region, amount }) {
   const after = inserted(document, region, amount);
   return {
-    apply: (now) => inserted(now, region, amount),
+    apply: (/** @type {GaitDocument} */ now) => inserted(now, region, amount),
     label: `Insert ${counted(amount, "sample")} before sample ${region.samples[0] + 1}`,
     note: `Each foot stays in stance or swing during the new samples. ${lengthNote(document, after)}`,
     selection: { ...region, samples: [region.samples[0], region.samples[0] + amount - 1] },
   };
 }
 
+/** @param {Context} context @returns {Outcome} */
 function remove({ document, region }) {
   if (sampleCount(document) - lengthOf(region) < 2) {
     return { reason: "The timeline must keep at least two samples. Select fewer samples." };
@@ -214,23 +251,25 @@ function remove({ document, region }) {
       ? `sample ${region.samples[0] + 1}`
       : `samples ${region.samples[0] + 1}–${region.samples[1] + 1}`;
   return {
-    apply: (now) => removed(now, region),
+    apply: (/** @type {GaitDocument} */ now) => removed(now, region),
     label: `Remove ${range}`,
     note: lengthNote(document, after),
     selection: null,
   };
 }
 
+/** @param {boolean} locks @returns {(context: Context) => Outcome} */
 const locking =
   (locks) =>
   ({ region, words }) => ({
-    apply: (now) => withLocks(now, region, locks),
+    apply: (/** @type {GaitDocument} */ now) => withLocks(now, region, locks),
     label: `${locks ? "Lock" : "Unlock"} ${words}`,
   });
 
 /**
- * `amount` is the number that an operation asks for; `start` gives what stands there at first. `columns` are operations
- * on samples of all feet, which never mean the whole timeline by themselves.
+ * `amount` is the number that an operation asks for; `start` gives what stands there at first. `columns`
+ * are operations on samples of all feet, which never mean the whole timeline by themselves.
+ * @type {Record<string, Operation>}
  */
 export const OPERATIONS = {
   mirror: {
@@ -257,16 +296,17 @@ export const OPERATIONS = {
     name: "Reverse in time",
     help: "Reverse the order of the samples: the last sample becomes the first",
     outcome: ({ region, words }) => ({
-      apply: (now) => (isWhole(now, region) ? heldReversed(reversed(now, region)) : reversed(now, region)),
+      apply: (/** @type {GaitDocument} */ now) =>
+        isWhole(now, region) ? heldReversed(reversed(now, region)) : reversed(now, region),
       label: `Reverse ${words}`,
     }),
   },
   shift: {
     name: "Shift phase",
-    help: "Move the cells later in time. " + "Cells that leave at the end come back at the beginning",
+    help: "Move the cells later in time. Cells that leave at the end come back at the beginning",
     amount: { name: "Later by", unit: "samples", least: -MOST_SAMPLES, most: MOST_SAMPLES, start: () => 1 },
     outcome: ({ region, words, amount }) => ({
-      apply: (now) => shifted(now, region, amount),
+      apply: (/** @type {GaitDocument} */ now) => shifted(now, region, amount),
       label: `Shift ${words} by ${amount > 0 ? "+" : "−"}${Math.abs(amount)}`,
     }),
   },
@@ -289,7 +329,10 @@ export const OPERATIONS = {
   stance: {
     name: "To stance",
     help: "Change the selected cells to stance",
-    outcome: ({ region, words }) => ({ apply: (now) => toStance(now, region), label: `${words} to stance` }),
+    outcome: ({ region, words }) => ({
+      apply: (/** @type {GaitDocument} */ now) => toStance(now, region),
+      label: `${words} to stance`,
+    }),
   },
   lock: { name: "Lock", help: "Lock cells, so that no edit can change them", outcome: locking(true) },
   unlock: {
@@ -314,6 +357,7 @@ export const OPERATIONS = {
   },
 };
 
+/** @param {GaitDocument} before @param {GaitDocument} after */
 const refusalOf = (before, after) =>
   sampleCount(after) > MOST_SAMPLES
     ? `The timeline would have ${sampleCount(after)} samples. `
@@ -323,50 +367,83 @@ const refusalOf = (before, after) =>
 /**
  * What an operation would make of a document.
  * @param {string} id of OPERATIONS
- * @param {{document: Record<string, any>, region: Record<string, any>|null, mirror: number[]|null}} state without a region the whole timeline is meant
- * @param {number} [amount]
+ * @param {{document: GaitDocument, region: Region|null, mirror: number[]|null}} state without a region the
+ *   whole timeline is meant
+ * @param {number} [amount] of an operation that asks for one
+ * @returns {any} an Outcome
  */
 export function outcomeOf(id, { document, region, mirror: map }, amount) {
   const whyNot = whyNotDrawn(document);
   if (whyNot) return { reason: whyNot };
   const chosen = region ?? wholeOf(document);
-  const context = { document, region: chosen, mirror: map, amount, words: regionText(document, chosen) };
-  const found = OPERATIONS[id].outcome(context);
+  const words = regionText(document, chosen);
+  const found = OPERATIONS[id].outcome({
+    document,
+    region: chosen,
+    mirror: map,
+    amount: /** @type {number} */ (amount),
+    words,
+  });
   if (found.reason) return { reason: found.reason };
   const after = found.document === undefined ? found.apply(document) : found.document;
   const reason = after && refusalOf(document, after);
   return reason ? { reason } : { drawing: true, ...found, document: after, label: capital(found.label) };
 }
 
-/** Replaces the region's samples of all feet by what `change` makes of each row of them; locks there are gone. */
+/**
+ * Replaces the region's samples of all feet by what `change` makes of each row of them; locks there are gone.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {(text: string) => string} change
+ */
 function spliced(document, { samples: [first, last] }, change) {
+  /** @param {string} row @param {(text: string) => string} make */
   const cut = (row, make) => row.slice(0, first) + make(row.slice(first, last + 1)) + row.slice(last + 1);
-  const { feet, locked } = document.timeline;
-  const rows = feet.map((row) => cut(row, change));
-  const unlocked = (text) => "0".repeat(change(text).length);
+  /** @type {{locked?: string[]}} */
+  const { locked } = document.timeline;
+  const rows = rowsOfFeet(document).map((row) => cut(row, change));
+  const unlocked = (/** @type {string} */ text) => "0".repeat(change(text).length);
   return {
     ...document,
     timeline: { ...document.timeline, feet: rows, locked: locked && locked.map((row) => cut(row, unlocked)) },
   };
 }
 
-/** Inserts samples before the region; in them every foot does what it did in the sample before. */
+/**
+ * Inserts samples before the region; in them every foot does what it did in the sample before.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {number} count
+ */
 function inserted(document, region, count) {
   const [first] = region.samples;
-  const { feet, locked } = document.timeline;
+  /** @type {{locked?: string[]}} */
+  const { locked } = document.timeline;
+  /** @param {string} row @param {string} value */
   const grown = (row, value) => row.slice(0, first) + value.repeat(count) + row.slice(first);
-  const rows = feet.map((row) => grown(row, row[Math.max(0, first - 1)]));
+  const rows = rowsOfFeet(document).map((row) => grown(row, row[Math.max(0, first - 1)]));
   return {
     ...document,
     timeline: { ...document.timeline, feet: rows, locked: locked && locked.map((row) => grown(row, "0")) },
   };
 }
 
+/** @param {GaitDocument} document @param {Region} region */
 const removed = (document, region) => spliced(document, region, () => "");
 
-/** The region's samples a number of times one after the other. */
+/**
+ * The region's samples a number of times one after the other.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {number} times
+ */
 const repeated = (document, region, times) => spliced(document, region, (text) => text.repeat(times));
 
-/** The region's samples over another number of samples; what is behind moves along. */
+/**
+ * The region's samples over another number of samples; what is behind moves along.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {number} length
+ */
 const stretched = (document, region, length) =>
   spliced(document, region, (text) => (length === lengthOf(region) ? text : resampled(text, length)));

@@ -1,53 +1,90 @@
 /**
- * What is done to a region of the timeline: functions from gait document to gait document that keep its length.
+ * What is done to a region of the timeline: functions from gait document to gait document that keep its
+ * length.
  *
  * They look at nothing but the cells; `heldBack` says which locked cell such a change would touch.
  */
 
-import { cellsOf, feetOf, lengthOf } from "./region.js";
+import { cellsOf, feetOf, lengthOf, rowsOfFeet } from "./region.js";
 
+/**
+ * @typedef {import("./drawable.js").GaitDocument} GaitDocument
+ * @typedef {import("./region.js").Region} Region
+ */
+
+/** @param {GaitDocument} document @param {string[]} feet @returns {GaitDocument} */
 const withFeet = (document, feet) => ({ ...document, timeline: { ...document.timeline, feet } });
 
-/** A row with other text from a sample on, as far as the row goes. */
+/**
+ * A row with other text from a sample on, as far as the row goes.
+ * @param {string} row
+ * @param {number} sample
+ * @param {string} text
+ */
 const written = (row, sample, text) =>
   row.slice(0, sample) + text.slice(0, row.length - sample) + row.slice(sample + text.length);
 
-/** Rows of 1 and 0 inside a region, a row a foot. */
-export const blockOf = ({ timeline }, { feet: [top, bottom], samples: [first, last] }) =>
-  timeline.feet.slice(top, bottom + 1).map((row) => row.slice(first, last + 1));
+/** Rows of 1 and 0 inside a region, a row a foot. @param {GaitDocument} document @param {Region} region */
+export const blockOf = (document, { feet: [top, bottom], samples: [first, last] }) =>
+  rowsOfFeet(document)
+    .slice(top, bottom + 1)
+    .map((row) => row.slice(first, last + 1));
 
-/** Writes a block with its first row and sample at a cell; what does not fit is left out. */
+/**
+ * Writes a block with its first row and sample at a cell; what does not fit is left out.
+ * @param {GaitDocument} document
+ * @param {number[]} cell
+ * @param {string[]} block
+ */
 export function withBlock(document, [foot, sample], block) {
   return withFeet(
     document,
-    document.timeline.feet.map((row, index) =>
+    rowsOfFeet(document).map((row, index) =>
       block[index - foot] === undefined ? row : written(row, sample, block[index - foot]),
     ),
   );
 }
 
+/** @param {GaitDocument} document @param {Region} region @param {(row: string) => string} change */
 const eachRow = (document, region, change) =>
   withBlock(document, [region.feet[0], region.samples[0]], blockOf(document, region).map(change));
 
+/** @param {GaitDocument} document @param {Region} region */
 export const toStance = (document, region) => eachRow(document, region, (row) => "1".repeat(row.length));
 
+/** @param {GaitDocument} document @param {Region} region */
 export const reversed = (document, region) => eachRow(document, region, (row) => [...row].reverse().join(""));
 
-/** Moves the region's samples later (earlier where `by` is negative); what leaves at one end enters at the other. */
+/**
+ * Moves the region's samples later (earlier where `by` is negative); what leaves at one end enters at the
+ * other.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {number} by
+ */
 export function shifted(document, region, by) {
   const length = lengthOf(region);
   const cut = length - (((by % length) + length) % length);
   return eachRow(document, region, (row) => row.slice(cut) + row.slice(0, cut));
 }
 
-/** Feet of the region and those that they change places with; `mirror` gives each foot's counterpart. */
+/**
+ * Feet of the region and those that they change places with; `mirror` gives each foot's counterpart.
+ * @param {Region} region
+ * @param {number[]} mirror
+ */
 export const mirroredFeet = (region, mirror) =>
   [...new Set(feetOf(region).flatMap((foot) => [foot, mirror[foot]]))].sort((a, b) => a - b);
 
-/** Changes each foot of the region with its counterpart on the other side of the heading. */
+/**
+ * Changes each foot of the region with its counterpart on the other side of the heading.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {number[]} mirror
+ */
 export function mirrored(document, region, mirror) {
   const [first, last] = region.samples;
-  const rows = document.timeline.feet;
+  const rows = rowsOfFeet(document);
   const turned = new Set(mirroredFeet(region, mirror));
   return withFeet(
     document,
@@ -57,11 +94,20 @@ export function mirrored(document, region, mirror) {
   );
 }
 
-/** A row over another number of samples: each takes the value at the same share of the time. */
+/**
+ * A row over another number of samples: each takes the value at the same share of the time.
+ * @param {string} row
+ * @param {number} length
+ */
 export const resampled = (row, length) =>
   Array.from({ length }, (_, sample) => row[Math.floor(((sample + 0.5) * row.length) / length)]).join("");
 
-/** The region's samples over another number of samples; what was behind is written over, what is left stands. */
+/**
+ * The region's samples over another number of samples; what was behind is written over, what is left stands.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {number} length
+ */
 export function stretchedInPlace(document, region, length) {
   const cleared = toStance(document, region);
   return withBlock(
@@ -71,7 +117,12 @@ export function stretchedInPlace(document, region, length) {
   );
 }
 
-/** Takes the region's content to other samples; where it was, its feet stand. Copies it where `keeps` says so. */
+/**
+ * Takes the region's content to other samples; where it was, its feet stand. Copies it where `keeps` says so.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {number} by
+ */
 export function relocated(document, region, by, keeps = false) {
   const block = blockOf(document, region);
   const sample = region.samples[0] + by;
@@ -83,26 +134,43 @@ export function relocated(document, region, by, keeps = false) {
   );
 }
 
-/** Locks every cell of the region, or unlocks it. */
+/**
+ * Locks every cell of the region, or unlocks it.
+ * @param {GaitDocument} document
+ * @param {Region} region
+ * @param {boolean} locked
+ */
 export function withLocks(document, region, locked) {
-  const { feet, locked: before } = document.timeline;
-  const rows = (before ?? feet.map((row) => "0".repeat(row.length))).map((row) => [...row]);
+  const { locked: before } = document.timeline;
+  /** @type {string[]} */
+  const locks = before ?? rowsOfFeet(document).map((row) => "0".repeat(row.length));
+  const rows = locks.map((row) => [...row]);
   for (const [foot, sample] of cellsOf(region)) rows[foot][sample] = locked ? "1" : "0";
   return { ...document, timeline: { ...document.timeline, locked: rows.map((row) => row.join("")) } };
 }
 
-/** The direction's rows a number of quarter turns further on (four feet: a foot a quarter). */
+/**
+ * The direction's rows a number of quarter turns further on (four feet: a foot a quarter).
+ * @param {string[]} rows
+ * @param {number} quarterTurns
+ */
 export function turnedRows(rows, quarterTurns) {
   const by = Math.floor((quarterTurns * rows.length) / 4);
   return rows.map((_, foot) => rows[(((foot - by) % rows.length) + rows.length) % rows.length]);
 }
 
+/** @param {GaitDocument} document @returns {number[]|null} */
 const firstLocked = ({ timeline }) => {
-  const foot = (timeline.locked ?? []).findIndex((row) => row.includes("1"));
+  const foot = (timeline.locked ?? []).findIndex((/** @type {string} */ row) => row.includes("1"));
   return foot < 0 ? null : [foot, timeline.locked[foot].indexOf("1")];
 };
 
-/** Why a change may not be made: a locked cell would change, or nothing at all. Null where it may. */
+/**
+ * Why a change may not be made: a locked cell would change, or nothing at all. Null where it may.
+ * @param {GaitDocument} before
+ * @param {GaitDocument} after
+ * @returns {string|null}
+ */
 export function heldBack(before, after) {
   const [old, now] = [before.timeline, after.timeline];
   if (old.feet[0].length !== now.feet[0].length) {

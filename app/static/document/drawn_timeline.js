@@ -1,6 +1,5 @@
 /**
- * The timeline generated from foot order, phases and closing stance (thesis 3.3), to detect one drawn by
- * hand.
+ * The timeline that follows from foot order, phases and closing stance (thesis 3.3), to detect another one.
  */
 
 import { heldBoth } from "./held_feet.js";
@@ -58,8 +57,7 @@ export function repeatedRows(document, wanted) {
 }
 
 /**
- * The foot order that a document shows: that of the first swings of a painted timeline, where each foot has
- * its own.
+ * The foot order that a document shows: that of a painted timeline's first swings, where each foot has one.
  * @param {GaitDocument} document
  * @returns {number[]}
  */

@@ -58,8 +58,7 @@ function eachSample({ first, last }, contact, act) {
 const lacksOf = (plan) => plan?.live?.lacks ?? [];
 
 /**
- * "foot,sample" to `{sentence, tone}`; the worst entry wins. Cells of a phase that are not to blame have no
- * tone.
+ * "foot,sample" to `{sentence, tone}`; the worst entry wins. Cells that are not to blame have no tone.
  * @param {any} plan
  */
 export function missingMotionByCell(plan) {

@@ -151,8 +151,7 @@ export const errorSentence = (sheet, { row, foot, sentence }) =>
   `Foot ${foot + 1}, ${rowName(sheet, row)}: ${sentence}`;
 
 /**
- * Every segment for a cell: `{name, segment, why}`, those that fit first; `why` says why another one does
- * not.
+ * Every segment for a cell: `{name, segment, why}`, those that fit first; `why` says why one does not.
  * @param {Sheet} sheet
  * @param {number} row
  * @param {number} foot

@@ -50,8 +50,7 @@ export function differing(from, to) {
 }
 
 /**
- * Why a swing may not come to lie there; "" where only the border of the timeline is in the way, null where
- * it may.
+ * Why a swing may not lie there; "" where only the border of the timeline is in the way, null where it may.
  * @param {Line} line
  * @param {Swing} from
  * @param {Swing} to

@@ -1,6 +1,5 @@
 /**
- * What is done to a region of the timeline: functions from gait document to gait document that keep its
- * length.
+ * What is done to a region of the timeline: functions from document to document that keep its length.
  *
  * They look at nothing but the cells; `heldBack` says which locked cell such a change would touch.
  */
@@ -56,8 +55,7 @@ export const toStance = (document, region) => eachRow(document, region, (row) =>
 export const reversed = (document, region) => eachRow(document, region, (row) => [...row].reverse().join(""));
 
 /**
- * Moves the region's samples later (earlier where `by` is negative); what leaves at one end enters at the
- * other.
+ * Moves the region's samples later (earlier for a negative `by`); what leaves at one end enters at the other.
  * @param {GaitDocument} document
  * @param {Region} region
  * @param {number} by

@@ -1,13 +1,11 @@
 /**
- * Edits of the gait: applied on screen at once, sent one after the other, each a named undo entry on the
- * server.
+ * Edits of the gait: applied on screen at once, sent one after the other, each a named undo entry.
  *
  * An edit is a function from document to document, so that it can be put on top of what another tab did
  * meanwhile. It has a number, by which a state of the studio says that it is in it: one that is shown or sent
  * again is made once. A drawing that the server refuses stays on screen, marked, and goes along with the next
  * edit. Where the server does not answer, edits wait until it does.
- * Every act is of the gait that was shown when it was done: it reaches that one, also where another is shown
- * by then.
+ * Every act is of the gait that was shown when it was done, and reaches that one.
  */
 
 import { editNumber } from "../api/author.js";
@@ -144,8 +142,7 @@ async function sendNext(store, batch) {
 
 /**
  * What is sent next: edits of a gait that was left come first, and refused drawings go along with the next
- * edit. The newest edit's number stands for all of them, so that the same ones are sent again where no answer
- * came.
+ * edit. The newest edit's number stands for all, so that the same ones are sent again without an answer.
  * @param {Store} store
  */
 function nextBatch({ state: { pending, left } }) {

@@ -1,13 +1,13 @@
 /**
  * The controls of the Optimise section: numbers that are typed, stepped with the arrow keys or dragged by
- * their name, and choices. While a number changes the document is shown changed, and one edit is made at
- * the end.
+ * their name, and choices. While a number changes the document is shown changed; one edit is made at the end.
  */
 
 import { clamp } from "../lib/clamp.js";
 import { h } from "../lib/dom.js";
 import { refusalOf, wholeNumber } from "../lib/field_error.js";
 import { limitHint } from "./limit_hint.js";
+import { changing, textOf } from "./number_change.js";
 
 /**
  * @typedef {import("./store.js").Store} Store
@@ -51,60 +51,6 @@ import { limitHint } from "./limit_hint.js";
 const PIXELS_A_STEP = 4;
 /** @type {Record<string, number>} */
 const WAYS = { ArrowUp: 1, ArrowDown: -1 };
-
-/** @param {number|null} value @param {number} decimals */
-const textOf = (value, decimals) => (value === null ? "" : String(Number(value.toFixed(decimals))));
-
-/** @param {number|null} value @param {NumberField} field */
-const withUnit = (value, field) =>
-  value === null ? field.empty : `${textOf(value, field.decimals)} ${field.unit}`.trim();
-
-/**
- * The running change of a number: on screen at once, one edit at the end, or nothing.
- * @param {Store} store
- * @param {Edits} edits
- * @param {NumberField} field
- * @param {ReturnType<typeof limitHint>} limit
- */
-function changing(store, edits, field, limit) {
-  const { act, write = (document) => document } = field;
-  /** @type {number|null|undefined} */
-  let value;
-
-  function end() {
-    value = undefined;
-    limit.end();
-    store.set({ gesture: null });
-  }
-
-  return {
-    get on() {
-      return value !== undefined;
-    },
-    /** @param {number|null|undefined} next */
-    show(next) {
-      if (value === undefined) limit.begin(edits.shown());
-      value = next;
-      const apply = (/** @type {GaitDocument} */ document) => (act ? document : write(document, next));
-      store.set({ gesture: { apply } });
-    },
-    commit() {
-      if (value === undefined) return;
-      const next = value;
-      end();
-      const before = field.read(edits.shown());
-      const same = before === null || next === null ? before === next : Math.abs(before - next) < 1e-9;
-      if (same) return;
-      if (act) act(next);
-      else edits.edit((document) => write(document, next), `${field.name} to ${withUnit(next, field)}`);
-    },
-    drop() {
-      if (value === undefined) return false;
-      end();
-      return true;
-    },
-  };
-}
 
 /** @param {number|null} value @param {NumberField} field */
 const isOutside = (value, { min, max }) => typeof value === "number" && (value < min || value > max);

@@ -49,8 +49,7 @@ function refusedPlan(sentence) {
 }
 
 /**
- * Resolves in a task of its own, so that reading a large answer and drawing it do not hold up a frame
- * together.
+ * Resolves in a task of its own: reading a large answer and drawing it would hold up a frame together.
  */
 const nextTask = () =>
   new Promise((resume) => {

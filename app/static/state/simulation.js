@@ -10,8 +10,7 @@ import { report } from "../lib/toasts.js";
 const SIMULATE = "simulate";
 
 /**
- * The simulation of the shown gait, also one of an older version; null where there is none, or it is not
- * there yet.
+ * The simulation of the shown gait, also one of an older version; null where none is there yet.
  * @param {{simulation?: any, view?: any}} state
  */
 export function simulationOf({ simulation, view }) {
@@ -19,8 +18,7 @@ export function simulationOf({ simulation, view }) {
 }
 
 /**
- * The simulation of exactly the plan that is shown, or null: an edit, an iteration and another plan have
- * none.
+ * The simulation of exactly the plan that is shown; an edit, an iteration and another plan have none.
  * @param {{simulation?: any, view?: any, iterate?: any, tryout?: any, live?: any}} state
  */
 export function simulationOver(state) {

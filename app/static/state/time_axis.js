@@ -105,8 +105,7 @@ export function axisKey(state) {
 export const placeAt = (axis, time) => (time - axis.start) / axis.step;
 
 /**
- * Where the left edge of a column lies on the axis, in columns of mean width; of a broken number, a place
- * within.
+ * Where a column's left edge lies on the axis, in columns of mean width; of a broken number, a place within.
  * @param {Axis} axis
  * @param {number} column
  */

@@ -1,6 +1,6 @@
 /** The definitions of a segment table: add, change, rename and delete its named positions and segments. */
 
-import { counted } from "../lib/format.js";
+import { capital, counted } from "../lib/format.js";
 import { h, onPress, setAllowed } from "../lib/dom.js";
 
 const NAME = /^[^\t\r\n,;"]{1,40}$/;
@@ -18,7 +18,7 @@ function nameReason(name, taken, what, withoutDash) {
       + `A hyphen separates place and height in the name of a position, such as Home-Base.`
     );
   if (taken.some((one) => one.toLowerCase() === name.toLowerCase()))
-    return `A ${what} “${name}” already ` + `exists. Choose another name.`;
+    return `A ${what} “${name}” already exists. Choose another name.`;
   return null;
 }
 
@@ -53,8 +53,17 @@ const renameSegment = (from, to) => (sheet) => ({
 
 const without = (map, name) => Object.fromEntries(Object.entries(map).filter(([one]) => one !== name));
 
-/** A text field that is read on change; a wrong text is refused and the value restored. */
-function field({ label, value, width, unit, read, refuse }) {
+/**
+ * A text field that is read on change; a wrong text is refused and the value restored.
+ * @param {{
+ *   label: string,
+ *   value: string,
+ *   unit?: string,
+ *   read: (text: string) => string|null|undefined,
+ *   refuse: (reason: string) => void,
+ * }} what `read` returns why it refuses a text
+ */
+function field({ label, value, unit, read, refuse }) {
   const input = h("input", {
     value,
     "aria-label": label,
@@ -112,6 +121,7 @@ const numberOf = (text) => (text === "" ? NaN : Number(text.replace(",", ".").re
 const AXES = {
   xy: {
     title: "Places",
+    what: "place",
     unit: "×",
     help: "Foot position as a multiple of the step",
     shown: String,
@@ -123,6 +133,7 @@ const AXES = {
   },
   z: {
     title: "Heights",
+    what: "height",
     unit: "mm",
     help: "Stroke of each motor when the foot is in its middle position",
     shown: (value) => String(Number((value * 1000).toFixed(4))),
@@ -140,13 +151,13 @@ const freshName = (taken, stem) => {
   return `${stem} ${number}`;
 };
 
-/** Why a number cannot be a place or a height, which the motors of the robot have to reach; null where it can. */
+/** Why a number cannot be a place or a height, which the robot's motors have to reach; null where it can. */
 function numberReason(name, number, unit, [least, most]) {
   if (number >= least && number <= most) return null;
   if (unit !== "mm" || Number.isNaN(number))
     return (
-      `“${name}” needs a number between ${least} and `
-      + `${most}${unit === "mm" ? " mm" : ""}. The old number stays.`
+      `“${name}” needs a number between ${least} and ${most}${unit === "mm" ? " mm" : ""}. `
+      + `The old number stays.`
     );
   return (
     `“${name}” cannot be ${number} mm. The robot's motors reach ${least} to ${most} mm. `
@@ -154,85 +165,90 @@ function numberReason(name, number, unit, [least, most]) {
   );
 }
 
-/** One axis of the named positions: its names and values. */
-function axisPart(sheet, axis, { run, refuse, strokes }) {
-  const { title, unit, help, shown, stored, least, most, fresh, uses } = AXES[axis];
+const withAxis = (axis, change) => withDefinitions((words) => ({ [axis]: change(words[axis]) }));
+
+const renamedOnAxis = (axis, from, to) =>
+  withDefinitions((words) => ({
+    [axis]: renamedKey(words[axis], from, to),
+    segments: renamedPosition(words.segments, axis, from, to),
+  }));
+
+/** Why a name of an axis cannot be deleted; null where it can. */
+function whyNotDeleted(sheet, axis, name) {
+  const { what, uses } = AXES[axis];
+  const user = Object.entries(sheet.words.segments).find(
+    ([, { start, end }]) => uses(start) === name || uses(end) === name,
+  )?.[0];
+  if (user)
+    return (
+      `The segment “${user}” uses “${name}”. `
+      + `Change or delete that segment before you delete the ${what}.`
+    );
+  return Object.keys(sheet.words[axis]).length === 1 ? `A segment table needs at least one ${what}.` : null;
+}
+
+/** A named place or height. */
+function axisRow(sheet, axis, name, { run, refuse, strokes }) {
+  const { what, unit, help, shown, stored, least, most } = AXES[axis];
   const range = (axis === "z" && strokes()) || [least, most];
   const map = sheet.words[axis];
-  const segments = Object.entries(sheet.words.segments);
-  const what = axis === "xy" ? "place" : "height";
-  const rows = Object.entries(map).map(([name, value]) => {
-    const user = segments.find(([, { start, end }]) => uses(start) === name || uses(end) === name)?.[0];
-    const last = Object.keys(map).length === 1;
-    return h(
-      "div",
-      { class: "word" },
-      field({
-        label: `Name of the ${what} ${name}`,
-        value: name,
-        refuse,
-        read: (text) =>
-          nameReason(text, Object.keys(without(map, name)), what, axis === "xy")
-          ?? run({
-            change: withDefinitions((words) => ({
-              [axis]: renamedKey(words[axis], name, text),
-              segments: renamedPosition(words.segments, axis, name, text),
-            })),
-            label: `Rename ${what} ${name} to ${text}`,
-          }),
-      }),
-      field({
-        label: `${help} at ${name}${unit === "×" ? "" : `, ${unit}`}`,
-        value: shown(value),
-        unit,
-        refuse,
-        read: (text) => {
-          const number = numberOf(text);
-          return (
-            numberReason(name, number, unit, range)
-            ?? run({
-              change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: stored(number) } })),
-              label: `${name} to ${number}${unit === "mm" ? " mm" : " × the step"}`,
-            })
-          );
-        },
-      }),
-      deletion(
-        `Delete the ${what} ${name}`,
-        user
-          ? `The segment “${user}” uses “${name}”. `
-              + `Change or delete that segment before you delete the ${what}.`
-          : last
-            ? `A segment table needs at least one ${what}.`
-            : null,
-        () =>
-          run({
-            change: withDefinitions((words) => ({ [axis]: without(words[axis], name) })),
-            label: `Delete ${what} ${name}`,
-          }),
-        refuse,
-      ),
+
+  function readName(text) {
+    return (
+      nameReason(text, Object.keys(without(map, name)), what, axis === "xy")
+      ?? run({ change: renamedOnAxis(axis, name, text), label: `Rename ${what} ${name} to ${text}` })
     );
-  });
-  const add = h("button", {
-    class: "link",
-    text: `Add a ${what}`,
-    on: {
-      click: () => {
-        const name = freshName(Object.keys(map), axis === "xy" ? "Place" : "Height");
-        run({
-          change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: fresh } })),
-          label: `Add ${what} ${name}`,
-        });
-      },
-    },
-  });
+  }
+
+  function readNumber(text) {
+    const number = numberOf(text);
+    return (
+      numberReason(name, number, unit, range)
+      ?? run({
+        change: withAxis(axis, (values) => ({ ...values, [name]: stored(number) })),
+        label: `${name} to ${number}${unit === "mm" ? " mm" : " × the step"}`,
+      })
+    );
+  }
+
+  return h(
+    "div",
+    { class: "word" },
+    field({ label: `Name of the ${what} ${name}`, value: name, refuse, read: readName }),
+    field({
+      label: `${help} at ${name}${unit === "×" ? "" : `, ${unit}`}`,
+      value: shown(map[name]),
+      unit,
+      refuse,
+      read: readNumber,
+    }),
+    deletion(
+      `Delete the ${what} ${name}`,
+      whyNotDeleted(sheet, axis, name),
+      () =>
+        run({ change: withAxis(axis, (values) => without(values, name)), label: `Delete ${what} ${name}` }),
+      refuse,
+    ),
+  );
+}
+
+/** One axis of the named positions: its names and values. */
+function axisPart(sheet, axis, actions) {
+  const { title, what, help, fresh } = AXES[axis];
+  const names = Object.keys(sheet.words[axis]);
+  const add = () => {
+    const name = freshName(names, capital(what));
+    actions.run({
+      change: withAxis(axis, (values) => ({ ...values, [name]: fresh })),
+      label: `Add ${what} ${name}`,
+    });
+  };
   return h(
     "div",
     { class: "axis", role: "group", "aria-label": title },
     h("h3", { text: title, title: help }),
-    ...rows,
-    add,
+    ...names.map((name) => axisRow(sheet, axis, name, actions)),
+    h("button", { class: "link", text: `Add a ${what}`, on: { click: add } }),
   );
 }
 
@@ -281,7 +297,7 @@ function segmentRow(sheet, name, { run, refuse }) {
     deletion(
       `Delete the segment ${name}`,
       uses
-        ? `The table uses “${name}” in ${counted(uses, "cell")}. ` + `Replace “${name}” in the table first.`
+        ? `The table uses “${name}” in ${counted(uses, "cell")}. Replace “${name}” in the table first.`
         : Object.keys(sheet.words.segments).length === 1
           ? "A segment table needs at least one segment."
           : null,
@@ -335,8 +351,9 @@ export const isTyped = (control) =>
   control?.matches("input:not([type=checkbox])") && control.value !== control.defaultValue;
 
 /**
- * Fills the panel with a sheet's vocabulary where that changed; the control that had the focus keeps it, and a name or number
- * that is being typed waits for its end. It is filled anew after the key or click at hand, which may take the focus on.
+ * Fills the panel with a sheet's vocabulary where that changed; the control that had the focus keeps it, and
+ * a name or number that is being typed waits for its end. It is filled anew after the key or click at hand,
+ * which may take the focus on.
  */
 export function createDefinitions(panel, actions) {
   let shown = "";

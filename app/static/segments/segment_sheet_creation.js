@@ -31,74 +31,82 @@ async function made(document) {
   }
 }
 
+/** The table of a drawing, or why there is none; then also the drawing with more room, where that has one. */
+async function findTables(document) {
+  const found = await made(document);
+  const other = found.table ? null : withRoom(document);
+  const { table } = other ? await made(other) : { table: null };
+  return { found, offer: table && { ...other, segment_table: table } };
+}
+
+/** Draws a document's timeline as an offer has it, with its table. */
+const redrawn =
+  ({ options, timeline, segment_table: table }) =>
+  (document) => ({
+    ...document,
+    timeline,
+    options: { ...document.options, phase_knots: options.phase_knots, closing_knots: options.closing_knots },
+    segment_table: table,
+  });
+
+/** The button that draws the timeline again, with longer phases. */
+function roomyButton(edits) {
+  let offer = null;
+  const draw = () => {
+    const phase = offer.options.phase_knots;
+    edits.edit(redrawn(offer), `Make a segment table with phases of ${phase} samples`, { drawing: true });
+  };
+  const element = h("button", { class: "wide", hidden: true, on: { click: draw } });
+  return {
+    element,
+    show(found) {
+      offer = found;
+      element.hidden = !offer;
+      if (!offer) return;
+      const { phase_knots: phase, closing_knots: closing } = offer.options;
+      setText(element, `Make a table with phases of ${phase} samples`);
+      element.title =
+        `Draws the timeline again with phases of ${phase} samples and a final stance of `
+        + `${counted(closing, "sample")}. Then makes the table. Undo restores the old timeline`;
+    },
+  };
+}
+
 /** The buttons of a gait without a table, and why its timeline cannot become one. */
 export function mountSegmentSheetCreation(store, edits) {
   const make = h("button", { class: "primary wide", text: "Make a segment table" });
   const why = h("p", { class: "why" });
-  const roomy = h("button", { class: "wide", hidden: true });
-  const element = h("div", { class: "making" }, h("p", { class: "teach", text: EMPTY }), make, why, roomy);
+  const roomy = roomyButton(edits);
+  const teach = h("p", { class: "teach", text: EMPTY });
   let found = null;
-  let offer = null;
 
   const request = latestOnly(async ({ id, revision, document }) => {
-    const answer = await made(document);
-    const other = answer.table ? null : withRoom(document);
-    const { table } = other ? await made(other) : { table: null };
+    const answer = await findTables(document);
     if (store.state.view?.id !== id || store.state.view.revision !== revision) return;
-    found = answer;
-    offer = table && { ...other, segment_table: table };
+    found = answer.found;
     setAllowed(
       make,
       found.table ? null : found.sentence,
-      "Makes a table that describes the footfalls "
-        + "of this timeline as named segments. Undo removes the table",
+      "Makes a table that describes the footfalls of this timeline as named segments. Undo removes the table",
     );
     setText(why, found.sentence ?? "");
-    roomy.hidden = !offer;
-    if (!offer) return;
-    const { phase_knots: phase, closing_knots: closing } = offer.options;
-    setText(roomy, `Make a table with phases of ${phase} samples`);
-    roomy.title =
-      `Draws the timeline again with phases of ${phase} samples and a final stance of `
-      + `${counted(closing, "sample")}. Then makes the table. Undo restores the old timeline`;
+    roomy.show(answer.offer);
   });
 
-  onPress(
-    make,
-    () => {
-      if (found?.table)
-        edits.edit((document) => ({ ...document, segment_table: found.table }), "Make a segment table", {
-          drawing: true,
-        });
-    },
-    toast,
-  );
-  roomy.addEventListener("click", () => {
-    const { options, timeline, segment_table: table } = offer;
-    edits.edit(
-      (document) => ({
-        ...document,
-        timeline,
-        options: {
-          ...document.options,
-          phase_knots: options.phase_knots,
-          closing_knots: options.closing_knots,
-        },
-        segment_table: table,
-      }),
-      `Make a segment table with phases of ${options.phase_knots} samples`,
-      { drawing: true },
-    );
-  });
+  const takeFound = () => {
+    const apply = (document) => ({ ...document, segment_table: found.table });
+    if (found?.table) edits.edit(apply, "Make a segment table", { drawing: true });
+  };
+  onPress(make, takeFound, toast);
   store.watch(
     ({ view }) => [view?.id, view?.revision],
     (state) => {
       const { view } = state;
       if (!view || view.document.segment_table || view.document.sequence?.length) return;
       setAllowed(make, "The studio is looking for a table that fits this timeline.");
-      roomy.hidden = true;
+      roomy.element.hidden = true;
       request({ id: view.id, revision: view.revision, document: shownDocument(state) });
     },
   );
-  return element;
+  return h("div", { class: "making" }, teach, make, why, roomy.element);
 }

@@ -1,4 +1,7 @@
-/** Changes of the segment table: each gives `{change, label, kept, moved}` (see `commit`), `change` from sheet to sheet, or `{reason}`. */
+/**
+ * Changes of the segment table: each gives `{change, label, kept, moved}` (see `commit`), `change` from sheet
+ * to sheet, or `{reason}`.
+ */
 
 import { capital, counted } from "../lib/format.js";
 import { clamp } from "../lib/clamp.js";
@@ -130,7 +133,10 @@ export function paste(sheet, range, names) {
   };
 }
 
-/** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` if it is the link's. */
+/**
+ * A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` if it is the
+ * link's.
+ */
 export function insertRow(sheet, after, inLink = false) {
   const names = [];
   const before = inLink && after < sheet.count ? sheet.to - 1 : after;
@@ -141,7 +147,7 @@ export function insertRow(sheet, after, inLink = false) {
     if (!name)
       return {
         reason:
-          `No segment can be inserted here. `
+          "No segment can be inserted here. "
           + `Foot ${foot + 1} is in the air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no `
           + `segment waits at ${place}. Insert before or after the step of foot ${foot + 1} instead.`,
       };
@@ -159,15 +165,14 @@ export function insertRow(sheet, after, inLink = false) {
     };
   };
   const moved = ([row, foot]) => [row + Number(row > after), foot];
-  return {
-    change,
-    moved,
-    label:
-      after < 0
-        ? "Insert a segment at the beginning"
-        : `Insert ${inLink && after < sheet.count ? `before ${rowName(sheet, after + 1)}` : `after ${rowName(sheet, after)}`}`,
-    kept: [],
-  };
+  return { change, moved, label: insertLabel(sheet, after, inLink), kept: [] };
+}
+
+function insertLabel(sheet, after, inLink) {
+  if (after < 0) return "Insert a segment at the beginning";
+  return inLink && after < sheet.count
+    ? `Insert before ${rowName(sheet, after + 1)}`
+    : `Insert after ${rowName(sheet, after)}`;
 }
 
 /** The sheet without some rows; the repeating part shrinks with them. */
@@ -215,13 +220,14 @@ export function setNumber(sheet, field, value) {
     samples: [
       2,
       Math.floor(MOST_SAMPLES / walked(sheet).length),
-      `a timeline has at most ${MOST_SAMPLES} ` + `samples`,
+      `a timeline has at most ${MOST_SAMPLES} samples`,
     ],
     from: [1, sheet.to, `the repeating part ends with segment ${sheet.to}`],
     to: [
       sheet.from,
       sheet.count,
-      `the repeating part begins with segment ${sheet.from} and the table has ${counted(sheet.count, "segment")}`,
+      `the repeating part begins with segment ${sheet.from} `
+        + `and the table has ${counted(sheet.count, "segment")}`,
     ],
   }[field];
   if (sheet[field] === value) return { reason: "The field already has this value." };

@@ -56,17 +56,46 @@ function bodyRow(sheet, row) {
   return { element, head, cells };
 }
 
+const wayOf = ({ start, end, swing }) =>
+  `${start === end ? `waits at ${start}` : `${start} → ${end}`}, ${WAYS[swing]}`;
+
 function drawCell(cell, sheet, row, foot, error) {
   const name = sheet.rows[row][foot];
   const segment = sheet.words.segments[name];
-  const way = segment
-    ? `${segment.start === segment.end ? `waits at ${segment.start}` : `${segment.start} → ${segment.end}`}, ${WAYS[segment.swing]}`
-    : "no such segment";
   setText(cell, name);
-  setAttribute(cell, "title", error ? `Foot ${foot + 1}: ${error.sentence}` : `${name}: ${way}`);
+  setAttribute(
+    cell,
+    "title",
+    error
+      ? `Foot ${foot + 1}: ${error.sentence}`
+      : `${name}: ${segment ? wayOf(segment) : "no such segment"}`,
+  );
   setAttribute(cell, "aria-invalid", error ? "true" : null);
   setAttribute(cell, "data-doubt", error && !error.stops ? "" : null);
   cell.toggleAttribute("data-swing", Boolean(segment?.swing));
+}
+
+/** The row between the table and its link. */
+function linkHead(isLinked, addLink) {
+  const add = h("button", {
+    class: "link",
+    text: "Add",
+    title: "Add a segment that connects one iteration with the next iteration",
+    on: { click: addLink },
+  });
+  const words = h("span", { text: isLinked ? "connects two iterations" : "none" });
+  return h(
+    "div",
+    { role: "row", class: "bridge" },
+    h("div", { role: "rowheader", title: LINK }, "Link", words, isLinked ? null : add),
+  );
+}
+
+/** When a gait contains a row's segment. */
+function placeText({ count, from, to }, row) {
+  if (row >= count) return "Between two iterations";
+  if (row < from - 1) return FIRST;
+  return row < to ? REPEATED : LAST;
 }
 
 /**
@@ -80,26 +109,7 @@ export function createSegmentSheetGrid(grid, addLink) {
   function rebuild(sheet, roles) {
     parts = sheet.rows.map((_, row) => bodyRow(sheet, row));
     const elements = parts.map(({ element }) => element);
-    const linked = sheet.rows.length > sheet.count;
-    const bridge = h(
-      "div",
-      { role: "row", class: "bridge" },
-      h(
-        "div",
-        { role: "rowheader", title: LINK },
-        "Link",
-        h("span", { text: linked ? "connects two iterations" : "none" }),
-        linked
-          ? null
-          : h("button", {
-              class: "link",
-              text: "Add",
-              title: "Add a segment that connects one " + "iteration with the next iteration",
-              on: { click: addLink },
-            }),
-      ),
-    );
-    elements.splice(sheet.count, 0, bridge);
+    elements.splice(sheet.count, 0, linkHead(sheet.rows.length > sheet.count, addLink));
     grid.replaceChildren(headRow(sheet.legs, roles), ...elements);
     grid.style.setProperty("--feet", sheet.legs);
     grid.toggleAttribute("data-many", sheet.legs > FEW_FEET);
@@ -116,19 +126,8 @@ export function createSegmentSheetGrid(grid, addLink) {
       shape = now;
       const found = new Map(errors.map((error) => [`${error.row},${error.foot}`, error]));
       parts.forEach(({ element, head, cells }, row) => {
-        const repeats = row >= sheet.from - 1 && row < sheet.to;
-        element.toggleAttribute("data-repeats", repeats);
-        setAttribute(
-          head,
-          "title",
-          row >= sheet.count
-            ? "Between two iterations"
-            : repeats
-              ? REPEATED
-              : row < sheet.from - 1
-                ? FIRST
-                : LAST,
-        );
+        element.toggleAttribute("data-repeats", row >= sheet.from - 1 && row < sheet.to);
+        setAttribute(head, "title", placeText(sheet, row));
         cells.forEach((cell, foot) => drawCell(cell, sheet, row, foot, found.get(`${row},${foot}`)));
       });
       return isNew;
@@ -148,11 +147,8 @@ export function createSegmentSheetGrid(grid, addLink) {
     select({ rows, feet }) {
       parts.forEach(({ cells }, row) =>
         cells.forEach((cell, foot) => {
-          setAttribute(
-            cell,
-            "aria-selected",
-            String(row >= rows[0] && row <= rows[1] && foot >= feet[0] && foot <= feet[1]),
-          );
+          const isInside = row >= rows[0] && row <= rows[1] && foot >= feet[0] && foot <= feet[1];
+          setAttribute(cell, "aria-selected", String(isInside));
         }),
       );
     },

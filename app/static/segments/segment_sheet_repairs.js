@@ -47,6 +47,23 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   };
 }
 
+const button = (text, title, click) => h("button", { text, title, on: { click } });
+
+function moreText(count) {
+  if (count > 1) return ` ${count} more cells have errors.`;
+  return count === 1 ? " 1 more cell has an error." : "";
+}
+
+/** The first error, with the number of the others. */
+function errorLine(sheet, errors, stops) {
+  return h("p", {
+    text: `${errorSentence(sheet, errors[0])}${moreText(errors.length - 1)}`,
+    title: stops
+      ? "The gait uses its last valid table until you correct all errors."
+      : "The gait can have only one iteration until you correct all errors.",
+  });
+}
+
 /**
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} edits
@@ -96,27 +113,21 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
       return;
     }
     note.dataset.tone = stops ? "bad" : "caution";
-    const others = errors.length - 1;
-    const more =
-      others > 1 ? ` ${others} more cells have errors.` : others === 1 ? " 1 more cell has an error." : "";
-    const after = stops
-      ? "The gait uses its last valid table until you correct all errors."
-      : "The gait can have only one iteration until you correct all errors.";
-    note.replaceChildren(
-      h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
-      h(
-        "div",
-        { class: "buttons" },
-        ...offers.map(({ label, help, step }) =>
-          h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } }),
-        ),
-        stops
-          && h("button", {
-            text: "Take it back",
-            title: "Restores the last valid table. " + "Ctrl+Z undoes only the last change",
-            on: { click: act(() => dropSegmentDraft(store)) },
-          }),
+    const takeBack = button(
+      "Take it back",
+      "Restores the last valid table. Ctrl+Z undoes only the last change",
+      act(() => dropSegmentDraft(store)),
+    );
+    const repairs = offers.map(({ label, help, step }) =>
+      button(
+        label,
+        help,
+        act(() => commit(store, edits, step)),
       ),
+    );
+    note.replaceChildren(
+      errorLine(sheet, errors, stops),
+      h("div", { class: "buttons" }, ...repairs, stops && takeBack),
     );
     request(sheet);
   }

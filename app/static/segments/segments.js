@@ -43,7 +43,7 @@ function numberFields(store, edits, run) {
       "Samples a segment",
       "samples",
       200,
-      "Number of samples of each segment, including " + "its first and last sample",
+      "Number of samples of each segment, including its first and last sample",
     ),
     field(
       "Repeat",
@@ -60,7 +60,7 @@ function tools(input, toggleDefinitions) {
   const button = (text, title, act) => h("button", { text, title, on: { click: act } });
   const words = h("button", {
     text: "Vocabulary",
-    title: "Shows the named positions and segments of " + "this table",
+    title: "Shows the named positions and segments of this table",
     "aria-expanded": "false",
     "aria-controls": "segment-words",
     on: { click: () => toggleDefinitions(words) },
@@ -84,24 +84,61 @@ function tools(input, toggleDefinitions) {
   return bar;
 }
 
+/** The section's parts that show the sheet. */
+function sheetParts() {
+  return {
+    title: h("h2", {}, "Segment table", h("span")),
+    notice: h("p", { class: "box-note", data: { tone: "caution" } }),
+    grid: h("div", {
+      class: "sheet",
+      role: "grid",
+      "aria-label": "Segment table",
+      "aria-multiselectable": "true",
+    }),
+    note: h("div", { class: "box-note", role: "status", "aria-label": "Segment table note" }),
+    panel: h("div", {
+      id: "segment-words",
+      class: "words",
+      role: "region",
+      "aria-label": "Vocabulary",
+      hidden: true,
+    }),
+  };
+}
+
+/** Undo and redo of edits in the vocabulary, where nothing is being typed. */
+function mountHistoryKeys(panel, edits) {
+  panel.addEventListener("keydown", (event) => {
+    const key = event.key.toLowerCase();
+    if (!(event.ctrlKey || event.metaKey) || !"zy".includes(key) || isTyped(event.target)) return;
+    event.preventDefault();
+    if (key === "y" || event.shiftKey) edits.redo();
+    else edits.undo();
+  });
+}
+
+/** Tells the grid's style how much room there is beside the note; the focus stays in view. */
+function mountSizes(grid, note, hasFocus) {
+  const section = byId("segments");
+  const showView = () => grid.style.setProperty("--view", `${section.clientHeight}px`);
+  new ResizeObserver(showView).observe(section);
+  new ResizeObserver(() => {
+    grid.style.setProperty("--note", `${note.offsetHeight}px`);
+    if (hasFocus()) document.activeElement.scrollIntoView({ block: "nearest" });
+  }).observe(note);
+}
+
+/** What of a document the section shows. */
+const shownParts = (document) => [
+  document?.segment_table,
+  document?.direction,
+  document?.iterations,
+  document?.timeline.sample_time,
+];
+
 /** Builds the section; `escape` closes what is open in it, and returns whether anything was. */
 export function mountSegments(store, edits) {
-  const title = h("h2", {}, "Segment table", h("span"));
-  const grid = h("div", {
-    class: "sheet",
-    role: "grid",
-    "aria-label": "Segment table",
-    "aria-multiselectable": "true",
-  });
-  const note = h("div", { class: "box-note", role: "status", "aria-label": "Segment table note" });
-  const notice = h("p", { class: "box-note", data: { tone: "caution" } });
-  const panel = h("div", {
-    id: "segment-words",
-    class: "words",
-    role: "region",
-    "aria-label": "Vocabulary",
-    hidden: true,
-  });
+  const { title, notice, grid, note, panel } = sheetParts();
   const run = (outcome) => {
     if (outcome.reason) toast(outcome.reason);
     else commit(store, edits, outcome);
@@ -115,18 +152,20 @@ export function mountSegments(store, edits) {
     panel.hidden = !panel.hidden;
     setAttribute(button, "aria-expanded", String(!panel.hidden));
     show(store.state);
-    if (!panel.hidden) setTimeout(() => panel.scrollIntoView({ block: "nearest" })); // once it has been filled
+    // Once it has been filled.
+    if (!panel.hidden) setTimeout(() => panel.scrollIntoView({ block: "nearest" }));
   });
-  panel.addEventListener("keydown", (event) => {
-    const key = event.key.toLowerCase();
-    if (!(event.ctrlKey || event.metaKey) || !"zy".includes(key) || isTyped(event.target)) return;
-    event.preventDefault();
-    if (key === "y" || event.shiftKey) edits.redo();
-    else edits.undo();
-  });
+  mountHistoryKeys(panel, edits);
   const numberRow = h("div", { class: "sheet-numbers" }, ...numbers.map(({ element }) => element));
   const making = mountSegmentSheetCreation(store, edits);
   byId("segments").replaceChildren(title, notice, making, bar, grid, note, numberRow, panel);
+
+  function drawSheet(sheet, roles) {
+    const hadFocus = input.hasFocus();
+    const isNew = cells.draw(sheet, roles, errorsOf(sheet));
+    input.show();
+    if (isNew && (input.escape() || hadFocus)) input.focus();
+  }
 
   function show(state) {
     const sheet = shownSegmentSheet(state);
@@ -147,30 +186,15 @@ export function mountSegments(store, edits) {
     grid.hidden = false;
     const document = shownDocument(state);
     setText(title.lastChild, `${sheet.count} × ${fixed(sheet.samples * document.timeline.sample_time, 1)} s`);
-    const hadFocus = input.hasFocus();
-    const isNew = cells.draw(sheet, view.roles ?? [], errorsOf(sheet));
-    input.show();
-    if (isNew && (input.escape() || hadFocus)) input.focus();
+    drawSheet(sheet, view.roles ?? []);
     numbers.forEach((one) => one.show(document));
     if (!panel.hidden) drawDefinitions(sheet);
   }
 
-  new ResizeObserver(() => grid.style.setProperty("--view", `${byId("segments").clientHeight}px`)).observe(
-    byId("segments"),
-  );
-  new ResizeObserver(() => {
-    grid.style.setProperty("--note", `${note.offsetHeight}px`);
-    if (input.hasFocus()) document.activeElement.scrollIntoView({ block: "nearest" });
-  }).observe(note);
+  mountSizes(grid, note, input.hasFocus);
   mountSegmentSheetRepairs(store, edits, note, input.focus);
   mountSegmentDrafts(store);
-  const parts = (document) => [
-    document?.segment_table,
-    document?.direction,
-    document?.iterations,
-    document?.timeline.sample_time,
-  ];
-  store.watch((state) => [state.view, state.segmentDrafts, ...parts(shownDocument(state))], show);
+  store.watch((state) => [state.view, state.segmentDrafts, ...shownParts(shownDocument(state))], show);
   store.watch(
     (state) => [segmentDraftOf(state).steps.length > 0],
     (state) => grid.toggleAttribute("data-draft", segmentDraftOf(state).steps.length > 0),
@@ -246,7 +270,7 @@ function mountSegmentDrafts(store) {
         return;
       }
       const { steps } = segmentDraftOf(state);
-      // Restored changes are whole sheets, which stand on the table that they were made on; all of them need one.
+      // Restored changes are whole sheets, which stand on the table that they were made on; all need one.
       if (
         view.document.segment_table ? base !== before && steps.some(({ restored }) => restored) : steps.length
       ) {

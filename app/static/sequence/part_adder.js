@@ -17,7 +17,8 @@ function choice(line, robot) {
 }
 
 /**
- * A list of all gaits by group, and the button that adds the chosen one; over the parts, so that it stays in place.
+ * A list of all gaits by group, and the button that adds the chosen one; over the parts, so that it stays
+ * in place.
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} edits
  * @returns {HTMLElement}

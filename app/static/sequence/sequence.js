@@ -1,4 +1,4 @@
-/** The Sequence section: gaits that follow each other, in the place of the segment table where the gait is a sequence. */
+/** The Sequence section: gaits that follow each other. It stands where other gaits have the segment table. */
 
 import { api } from "../api/gaits.js";
 import { freeName } from "../document/gait_names.js";
@@ -121,6 +121,24 @@ function exactParts(store) {
   return h("div", { class: "sequence-only" }, button, h("p", { class: "why", text: OPTIMISE }));
 }
 
+/** Takes over a part's gait as it is now, or all of them; different sample times can be resampled. */
+function takingOver(store) {
+  const take = async (part, resample) =>
+    acceptView(store, await api.refreshSequence(store.state.selected, part, resample));
+  return attempt(async (part = null) => {
+    try {
+      await take(part, false);
+    } catch (error) {
+      if (error.where !== SAMPLE_TIMES) throw error;
+      const resample = attempt(() => take(part, true));
+      store.set({
+        formError: error.message,
+        formRefusal: { sentence: error.message, where: error.where, resample },
+      });
+    }
+  });
+}
+
 /**
  * Builds the section, and the entry of the menu New that makes a sequence; `cancel` ends a drag.
  * @param {import("../state/store.js").Store} store
@@ -134,20 +152,7 @@ export function mountSequence(store, edits, playback, gaitTools) {
     help: "Makes a sequence that begins with the shown gait. You add more gaits in the inspector",
     act: attempt(() => createSequence(store)),
   });
-  const take = async (part, resample) =>
-    acceptView(store, await api.refreshSequence(store.state.selected, part, resample));
-  const takeOver = attempt(async (part = null) => {
-    try {
-      await take(part, false);
-    } catch (error) {
-      if (error.where !== SAMPLE_TIMES) throw error;
-      const resample = attempt(() => take(part, true));
-      store.set({
-        formError: error.message,
-        formRefusal: { sentence: error.message, where: error.where, resample },
-      });
-    }
-  });
+  const takeOver = takingOver(store);
   const [rows, whole, stale] = [partRows(store, edits, playback, takeOver), totals(), staleness(takeOver)];
   const between = betweenParts(store, edits);
   const count = h("span");
@@ -163,6 +168,20 @@ export function mountSequence(store, edits, playback, gaitTools) {
     h("p", { class: "teach", text: TEACH }),
   );
   byId("optimise").append(exactParts(store));
+  const show = (state) => {
+    const document_ = shownDocument(state);
+    const on = isSequence(document_);
+    document.body.toggleAttribute("data-sequence", on);
+    byId("sequence").hidden = !on;
+    if (!on) return;
+    const plan = shownPlan(state);
+    rows.show(state);
+    between.show(document_);
+    whole.show(plan);
+    stale.show(state.view.sources ?? []);
+    count.textContent = counted(document_.sequence.length, "part");
+    trouble.show(state, document_, plan);
+  };
   store.watch(
     (state) => [
       state.view,
@@ -172,20 +191,7 @@ export function mountSequence(store, edits, playback, gaitTools) {
       state.formRefusal,
       shownPlan(state),
     ],
-    (state) => {
-      const document_ = shownDocument(state);
-      const on = isSequence(document_);
-      document.body.toggleAttribute("data-sequence", on);
-      byId("sequence").hidden = !on;
-      if (!on) return;
-      const plan = shownPlan(state);
-      rows.show(state);
-      between.show(document_);
-      whole.show(plan);
-      stale.show(state.view.sources ?? []);
-      count.textContent = counted(document_.sequence.length, "part");
-      trouble.show(state, document_, plan);
-    },
+    show,
   );
   // A sequence is edited by its parts, so that they come first where a person turns to one.
   store.watch(
@@ -236,7 +242,9 @@ const FIELDS = [
     max: 30,
     step: 0.5,
     decimals: 2,
-    help: "Smallest allowed distance of the centre of pressure from the edge of the support polygon, while feet step between two parts",
+    help:
+      "Smallest allowed distance of the centre of pressure from the edge of the support polygon, "
+      + "while feet step between two parts",
     ...option("margin", 1000),
   },
   {

@@ -1,4 +1,4 @@
-/** The band between ruler and timeline that names the parts of a sequence, and their borders through the rows. */
+/** The band over the timeline that names the parts of a sequence, and their borders through the rows. */
 
 import { clamp } from "../lib/clamp.js";
 import { axisKey, axisOf, columnFraction } from "../state/time_axis.js";

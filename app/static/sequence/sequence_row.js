@@ -17,7 +17,10 @@ const HELP =
   + "Enter moves the playhead to the start of the part";
 const DEGREES = 180 / Math.PI;
 
-/** Way, turn and time of a stretch of the plan, without what there is none of: "30.0 mm · 45° · 49.6 s". */
+/**
+ * Way, turn and time of a stretch of the plan, without what there is none of: "30.0 mm · 45° · 49.6 s".
+ * @param {Record<string, any>} stretch
+ */
 export function figuresOf({ travel, turn, duration }) {
   if (!travel) return "";
   const way = Math.hypot(...travel);
@@ -32,15 +35,17 @@ export function figuresOf({ travel, turn, duration }) {
 
 /** What the body does between two parts. */
 function moveText(move, plan) {
+  const feet = move.feet.map((foot) => foot + 1);
+  if (feet.length) {
+    const [noun, verb] = feet.length > 1 ? ["Feet", "step"] : ["Foot", "steps"];
+    return `${noun} ${feet.join(", ")} ${verb} over · ${fixed(move.duration)} s`;
+  }
   const rise = plan.body[move.last][2] - plan.body[move.first][2];
   const words = [
     Math.abs(rise) > 5e-6 && `${rise > 0 ? "up" : "down"} ${mm(Math.abs(rise))} mm`,
     figuresOf(move),
   ].filter(Boolean);
-  const feet = move.feet.map((foot) => foot + 1);
-  return feet.length
-    ? `${feet.length > 1 ? "Feet" : "Foot"} ${feet.join(", ")} ${feet.length > 1 ? "step" : "steps"} over · ${fixed(move.duration)} s`
-    : `Body moves ${words.join(" · ")}`;
+  return `Body moves ${words.join(" · ")}`;
 }
 
 function button(name, symbol, act) {
@@ -59,39 +64,14 @@ function button(name, symbol, act) {
   );
 }
 
-/**
- * Builds a row.
- * @param {{times: Function, move: Function, remove: Function, takeOver: Function, runThrough: Function}} acts on this row's part
- */
-export function partRow(actions) {
-  const lead = h("p", { class: "part-lead", role: "gridcell" });
-  const [number, text] = [h("span", { class: "part-number" }), h("span", { class: "part-text" })];
-  const name = h("div", { class: "part-name", role: "gridcell", tabindex: "-1" }, number, text);
+/** The field that says how often a part runs; `giveUp` restores the number after an error. */
+function timesField(change) {
   const input = h("input", {
     type: "number",
     min: 1,
     max: MOST_TIMES,
     step: 1,
     title: `How many times the robot performs this part, 1 to ${MOST_TIMES}`,
-  });
-  const [up, down] = [
-    button("Move up", "up", () => actions.move(-1)),
-    button("Move down", "down", () => actions.move(1)),
-  ];
-  const out = button("Take out", "close", actions.remove);
-  const figures = h("span", { class: "number" });
-  const [dot, word] = [h("span", { class: "dot" }), h("span", {})];
-  const over = h("button", {
-    class: "link",
-    text: "update",
-    title: "Copies the current version of the gait into this part",
-    on: { click: actions.takeOver },
-  });
-  const through = h("button", {
-    class: "link",
-    text: "without a pause",
-    title: "Joins the repetitions again, so that the robot does not pause between them",
-    on: { click: actions.runThrough },
   });
   const refusal = refusalOf(input);
   const giveUp = () => {
@@ -101,31 +81,56 @@ export function partRow(actions) {
   input.addEventListener("change", () => {
     const { value, sentence = null } = wholeNumber(input, "Times", { min: 1, max: MOST_TIMES });
     refusal.setError(sentence);
-    if (!sentence) actions.times(value);
+    if (!sentence) change(value);
   });
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") input.blur();
     if (event.key === "Escape") giveUp();
   });
+  return { input, refusal, giveUp };
+}
+
+const link = (text, title, click) => h("button", { class: "link", text, title, on: { click } });
+
+/**
+ * Builds a row.
+ * @param {{
+ *   times: (times: number) => void,
+ *   move: (way: number) => void,
+ *   remove: () => void,
+ *   takeOver: () => void,
+ *   runThrough: () => void,
+ * }} actions on this row's part
+ */
+export function partRow(actions) {
+  const lead = h("p", { class: "part-lead", role: "gridcell" });
+  const [number, text] = [h("span", { class: "part-number" }), h("span", { class: "part-text" })];
+  const name = h("div", { class: "part-name", role: "gridcell", tabindex: "-1" }, number, text);
+  const { input, refusal, giveUp } = timesField(actions.times);
+  const [up, down] = [
+    button("Move up", "up", () => actions.move(-1)),
+    button("Move down", "down", () => actions.move(1)),
+  ];
+  const out = button("Take out", "close", actions.remove);
+  const figures = h("span", { class: "number" });
+  const [dot, word] = [h("span", { class: "dot" }), h("span", {})];
+  const over = link("update", "Copies the current version of the gait into this part", actions.takeOver);
+  const through = link(
+    "without a pause",
+    "Joins the repetitions again, so that the robot does not pause between them",
+    actions.runThrough,
+  );
+  const cross = h("span", { class: "quiet", "aria-hidden": "true", text: "×" });
+  const cell = (kind, ...children) => h("div", { class: kind, role: "gridcell" }, ...children);
   const element = h(
     "div",
     { class: "part", role: "row" },
     lead,
     name,
-    h(
-      "div",
-      { class: "part-times", role: "gridcell" },
-      input,
-      h("span", { class: "quiet", "aria-hidden": "true", text: "×" }),
-    ),
-    h("div", { class: "part-buttons", role: "gridcell" }, up, down, out),
-    h("div", { class: "part-refusal", role: "gridcell" }, refusal.element),
-    h(
-      "div",
-      { class: "part-state", role: "gridcell" },
-      figures,
-      h("span", { class: "part-word" }, dot, word, over, through),
-    ),
+    cell("part-times", input, cross),
+    cell("part-buttons", up, down, out),
+    cell("part-refusal", refusal.element),
+    cell("part-state", figures, h("span", { class: "part-word" }, dot, word, over, through)),
   );
   return {
     element,
@@ -147,10 +152,65 @@ export function partRow(actions) {
   };
 }
 
+/** The number of times, unless a person is typing one or has to repair it. */
+function showTimes({ input, refusal, giveUp }, part, index) {
+  const { times, gait } = part;
+  setAttribute(input, "aria-label", `Times of part ${index + 1}`);
+  const isAnother = input.dataset.part !== undefined && input.dataset.part !== gait.name;
+  Object.assign(input.dataset, { shown: String(times), part: gait.name });
+  if (refusal.hasError() && isAnother) giveUp();
+  if (document.activeElement !== input && !refusal.hasError()) input.value = times;
+}
+
+function showButtons({ up, down, out }, title, index, count) {
+  setAllowed(up, index === 0 ? "The first part cannot move up." : null, `Move “${title}” up (Alt+Up)`);
+  setAllowed(
+    down,
+    index === count - 1 ? "The last part cannot move down." : null,
+    `Move “${title}” down (Alt+Down)`,
+  );
+  setAllowed(
+    out,
+    count === 1 ? "A sequence needs at least one part. Delete the sequence instead." : null,
+    `Take “${title}” out (Delete)`,
+  );
+}
+
+/** How a part stands, as a word with its tone and its help. */
+function stateOf(source, planned) {
+  if (source === "changed")
+    return [
+      "source changed",
+      "caution",
+      "The motion of the original gait has changed since you added or updated this part",
+    ];
+  if (!planned) return ["…", "quiet"];
+  return [...(STATES[planned.source] ?? [planned.source, "quiet"]), planned.note];
+}
+
+function showState(row, part, source, planned) {
+  const [word, tone, help] = stateOf(source, planned);
+  const isFromRest = Boolean(part.restarts) && part.times > 1;
+  setText(row.figures, planned ? figuresOf(planned) : "");
+  row.dot.dataset.tone = tone;
+  setText(row.word, isFromRest ? `${word}, repetitions from rest` : word);
+  setAttribute(row.word, "title", help);
+  row.over.hidden = source !== "changed";
+  row.through.hidden = !isFromRest || source === "changed";
+}
+
 /**
  * Shows a part in its row.
- * @param {Record<string, any>} row of `partRow`
- * @param {{index: number, count: number, part: Record<string, any>, planned: Record<string, any>|null, move: Record<string, any>|null, source: string|null, plan: Record<string, any>}} what
+ * @param {ReturnType<typeof partRow>} row
+ * @param {{
+ *   index: number,
+ *   count: number,
+ *   part: Record<string, any>,
+ *   planned: Record<string, any>|null,
+ *   move: Record<string, any>|null,
+ *   source: string|null,
+ *   plan: Record<string, any>,
+ * }} what
  */
 export function showRow(row, { index, count, part, planned, move, source, plan }) {
   const title = part.gait.name;
@@ -160,39 +220,7 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   setText(row.text, title);
   setAttribute(row.name, "aria-label", `Part ${index + 1} of ${count}: ${title}`);
   setAttribute(row.name, "title", `${title}. ${HELP}`);
-  setAttribute(row.input, "aria-label", `Times of part ${index + 1}`);
-  const isAnother = row.input.dataset.part !== undefined && row.input.dataset.part !== title;
-  Object.assign(row.input.dataset, { shown: String(part.times), part: title });
-  if (row.refusal.hasError() && isAnother) row.giveUp();
-  if (document.activeElement !== row.input && !row.refusal.hasError()) row.input.value = part.times;
-  setAllowed(row.up, index === 0 ? "The first part cannot move up." : null, `Move “${title}” up (Alt+Up)`);
-  setAllowed(
-    row.down,
-    index === count - 1 ? "The last part cannot move down." : null,
-    `Move “${title}” down (Alt+Down)`,
-  );
-  setAllowed(
-    row.out,
-    count === 1 ? "A sequence needs at least one part. " + "Delete the sequence instead." : null,
-    `Take “${title}” out (Delete)`,
-  );
-  setText(row.figures, planned ? figuresOf(planned) : "");
-  const [word, tone] =
-    source === "changed"
-      ? ["source changed", "caution"]
-      : planned
-        ? (STATES[planned.source] ?? [planned.source, "quiet"])
-        : ["…", "quiet"];
-  row.dot.dataset.tone = tone;
-  const isFromRest = Boolean(part.restarts) && part.times > 1;
-  setText(row.word, isFromRest ? `${word}, repetitions from rest` : word);
-  setAttribute(
-    row.word,
-    "title",
-    source === "changed"
-      ? "The motion of the original gait has changed since you added or updated this part"
-      : planned?.note,
-  );
-  row.over.hidden = source !== "changed";
-  row.through.hidden = !isFromRest || source === "changed";
+  showTimes(row, part, index);
+  showButtons(row, title, index, count);
+  showState(row, part, source, planned);
 }

@@ -1,4 +1,4 @@
-/** The rows of the Sequence section: an ARIA grid whose parts are moved, repeated and taken out, each by one edit. */
+/** The rows of the Sequence section, an ARIA grid: a part is moved, repeated or taken out by one edit. */
 
 import { moved, removed, repeated, restarted } from "../document/sequence_edits.js";
 import { h } from "../lib/dom.js";

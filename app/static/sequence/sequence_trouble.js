@@ -7,8 +7,9 @@ import { h, setText } from "../lib/dom.js";
 export const SAMPLE_TIMES = "sample_time";
 
 const RESAMPLE =
-  "Gives all parts the sample time that most parts have. Phases are rounded up to whole samples, so no motion "
-  + "becomes faster. Optimised parts that change must be optimised again. One Undo reverts the whole change.";
+  "Gives all parts the sample time that most parts have. "
+  + "Phases are rounded up to whole samples, so no motion becomes faster. "
+  + "Optimised parts that change must be optimised again. One Undo reverts the whole change.";
 const RESTART =
   "Each repetition starts and ends at rest, like a part that runs only once. "
   + "One Undo reverts this change.";
@@ -18,8 +19,7 @@ const restartable = (plan) =>
   (plan?.parts ?? []).filter((part) => part.has_own_motion).map(({ part }) => part);
 
 /**
- * @param {{edit: Function, resample: Function}} edits
- * @returns {{element: HTMLElement, show: (state: Record<string, any>, document: Record<string, any>, plan: Record<string, any>|null) => void}}
+ * @param {Record<string, any>} edits
  */
 export function sequenceTrouble(edits) {
   let act = null;
@@ -41,7 +41,12 @@ export function sequenceTrouble(edits) {
     setText(price, words);
   }
 
-  /** What helps against what is shown; nothing where no single click does. */
+  /**
+   * What helps against what is shown; nothing where no single click does.
+   * @param {Record<string, any>} state
+   * @param {Record<string, any>} document
+   * @param {Record<string, any>|null} plan
+   */
   function chosen({ formError, formRefusal }, document, plan) {
     if (formError) {
       const isTimes = formRefusal?.sentence === formError && formRefusal.where === SAMPLE_TIMES;

@@ -14,7 +14,7 @@ const REAL =
   + "To try this exercise with an emulated robot, start the studio with the option --robot emulator.";
 const STEP_LABEL = /^(Step|Goal) to /;
 
-/** Whether a gait is drawn: not for the robot's clock, not of segments or parts. Only then it gets remedies. */
+/** Whether a gait is drawn: not for the robot's clock, not of segments or parts. Others have no remedies. */
 const isDrawn = ({ poses, segment_table: table, sequence }) => !poses && !table && !sequence?.length;
 
 /** The step Design with its fields in sight. */

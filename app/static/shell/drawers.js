@@ -1,4 +1,4 @@
-/** The rail at the left, and the drawers that its buttons open beside the stage: one at a time, remembered. */
+/** The rail at the left, and the drawers that its buttons open beside the stage: one at a time. */
 
 import { byId, h, icon, setAttribute, setText } from "../lib/dom.js";
 import { remember, remembered } from "../lib/remembered.js";

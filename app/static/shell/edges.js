@@ -1,4 +1,4 @@
-/** The upright edges: width of drawer and inspector, and the inspector's height as a sheet. They are remembered. */
+/** The upright edges: width of drawer and inspector, the inspector's height as a sheet. Remembered. */
 
 import { clamp } from "../lib/clamp.js";
 import { byId, h, setAttribute } from "../lib/dom.js";

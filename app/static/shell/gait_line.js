@@ -128,10 +128,10 @@ export function showLine(line, listed, selected, view) {
   if (line.isSeen) draw(line);
 }
 
-/** Whether the pointer is over a row's list, where no row must move away from a click; a closed group's row has none. */
+/** Whether the pointer is over a row's list, where no row may move away from a click; a row may have none. */
 export const isPointedAt = (row) => row.parentElement?.matches(":hover") ?? false;
 
-/** Scrolls to the chosen row, for some frames: rows above it have their true height only once they are drawn. */
+/** Scrolls to a row, for some frames: rows above it have their true height only once they are drawn. */
 export function bringIntoSight(row, frames = SETTLING_FRAMES) {
   row.scrollIntoView({ block: "nearest" });
   const goOn = () => {

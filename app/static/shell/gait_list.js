@@ -8,7 +8,7 @@ import { remember, remembered } from "../lib/remembered.js";
 import { attempt, clearOfGait, report, toast } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
 import { closeOverStage } from "./drawers.js";
-import { gaitLine, mountWholeNames, showLine } from "./gait_line.js";
+import { bringIntoSight, gaitLine, isPointedAt, mountWholeNames, showLine } from "./gait_line.js";
 
 const KEY = "footfall.gait";
 
@@ -76,7 +76,7 @@ function takeNamed() {
   return named;
 }
 
-/** After a greeting: the gait that the address names, that runs, that is shown, that was used last, or the first. */
+/** After a greeting: the gait that the address names, else the shown, the running, the last used, the first. */
 export function selectAfterHello(store) {
   const { gaits, selected, robot, view } = store.state;
   const named = takeNamed();
@@ -93,7 +93,7 @@ const WAYS_OUT = {
   original: "Restore the original gait",
 };
 
-/** Says why a gait cannot be shown, and offers its way out; one of a person's own can be deleted, and brought back. */
+/** Says why a gait cannot be shown, and offers its way out; one's own can be deleted, and brought back. */
 function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
   if (id.endsWith(".json")) {
     toast(problem, { tone: "bad" });
@@ -140,13 +140,12 @@ function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
 const [SAVED, FOR_ROBOT, EXAMPLES] = ["Saved", "For this robot", "Examples"];
 /** Groups in their order; all others are examples, and stand in one fold. */
 const AT_TOP = [SAVED, FOR_ROBOT];
-const SETTLING_FRAMES = 10;
 const FOLDED_AT_FIRST = [EXAMPLES, "By hand", "Orders of Appendix A", "Textbook"];
 const FOLDS = "gait-groups";
 
 /**
- * Which groups are open: as the person left them in this browser. The group of a gait that is chosen opens for as long as
- * the page is open.
+ * Which groups are open: as the person left them in this browser. The group of a gait that is chosen opens
+ * for as long as the page is open.
  */
 function createFolds() {
   const chosen = remembered(FOLDS);
@@ -184,47 +183,39 @@ function heading(group, toggle) {
   };
 }
 
-/** Groups with their gaits: one's own first, then those for the robot, then the examples. */
+/**
+ * Groups with their gaits: one's own first, then those for the robot, then the examples.
+ * @returns {Record<"top"|"examples", [string, Record<string, any>[]][]>}
+ */
 function grouped(gaits) {
-  const groups = new Map(AT_TOP.map((group) => [group, []]));
+  /** @type {Map<string, Record<string, any>[]>} */
+  const groups = new Map();
+  for (const group of AT_TOP) groups.set(group, []);
   for (const gait of gaits) {
     if (!groups.has(gait.group)) groups.set(gait.group, []);
     groups.get(gait.group).push(gait);
   }
   const all = [...groups].filter(([, members]) => members.length);
-  const isAtTop = ([group]) => AT_TOP.includes(group);
-  return { top: all.filter(isAtTop), examples: all.filter((one) => !isAtTop(one)) };
+  return {
+    top: all.filter(([group]) => AT_TOP.includes(group)),
+    examples: all.filter(([group]) => !AT_TOP.includes(group)),
+  };
 }
 
-let lineOf = () => null;
+/** Makes a list hold these rows in their order; those that stand in their place already stay as they are. */
+function arrange(list, wanted) {
+  for (const child of [...list.children]) if (!wanted.has(child)) child.remove();
+  let next = list.firstElementChild;
+  for (const element of wanted) {
+    if (element === next) next = next.nextElementSibling;
+    else list.insertBefore(element, next);
+  }
+}
 
-/** The line of a gait, with its group open and no search on; null where there is none. */
-export const lineInList = (id) => lineOf(id);
-
-/** Builds the list and keeps it current; moves on where the shown gait has gone. */
-export function mountGaits(store) {
-  const list = byId("gaits");
-  let listed = null;
-  let revealed = null;
-  const troubled = new Set();
-  const [parts, headings, folds] = [new Map(), new Map(), createFolds()];
-
-  const search = gaitSearch(() => draw(store.state));
-  list.before(search.element);
-  mountWholeNames(list);
-  list.addEventListener("click", ({ target }) => {
-    const id = target.closest("[data-gait]")?.dataset.gait;
-    const unreadable = store.state.gaits.find((gait) => gait.id === id && gait.problem);
-    if (unreadable) showWaysOut(store, unreadable);
-    else if (id) {
-      selectGait(store, id);
-      closeOverStage();
-    }
-  });
-  list.addEventListener("dblclick", ({ target }) => {
-    const id = target.closest("[data-gait]")?.dataset.gait;
-    if (id && !store.state.gaits.some((gait) => gait.id === id && gait.problem)) rename(store, id);
-  });
+/** The rows of the list: a heading for each group, and a line for each gait of an open group. */
+function createRows(list, { store, search, folds }) {
+  /** @type {[Map<string, Record<string, any>>, Map<string, Record<string, any>>]} */
+  const [lines, headings] = [new Map(), new Map()];
 
   function toggle(group) {
     if (search.search()) return;
@@ -244,9 +235,9 @@ export function mountGaits(store) {
   function addGroup(wanted, [group, members], { selected, view }) {
     if (!addHeading(wanted, group, members)) return;
     for (const gait of members) {
-      if (!parts.has(gait.id)) parts.set(gait.id, gaitLine(gait));
-      showLine(parts.get(gait.id), gait, selected, view);
-      wanted.add(parts.get(gait.id).element);
+      if (!lines.has(gait.id)) lines.set(gait.id, gaitLine(gait));
+      showLine(lines.get(gait.id), gait, selected, view);
+      wanted.add(lines.get(gait.id).element);
     }
   }
 
@@ -257,27 +248,42 @@ export function mountGaits(store) {
     const matching = searched ? gaits.filter((gait) => found(gait, searched)) : gaits;
     const { top, examples } = grouped(matching);
     for (const group of top) addGroup(wanted, group, state);
-    if (
-      examples.length
-      && addHeading(
-        wanted,
-        EXAMPLES,
-        examples.flatMap(([, members]) => members),
-      )
-    ) {
+    const allExamples = examples.flatMap(([, members]) => members);
+    if (allExamples.length && addHeading(wanted, EXAMPLES, allExamples)) {
       for (const group of examples) addGroup(wanted, group, state);
     }
     search.show(matching.length, gaits.length);
-    for (const child of [...list.children]) if (!wanted.has(child)) child.remove();
-    let next = list.firstElementChild;
-    for (const element of wanted) {
-      if (element === next) next = next.nextElementSibling;
-      else list.insertBefore(element, next);
-    }
+    arrange(list, wanted);
   }
 
-  /** Opens the group of a gait when it is chosen or turns out to be unreadable; the person may fold it again. */
-  function reveal({ gaits, selected }) {
+  return { lines, draw };
+}
+
+/** Shows the gait whose line is clicked; a double click renames it. */
+function mountChoice(list, store) {
+  const chosen = ({ target }) => {
+    const id = target.closest("[data-gait]")?.dataset.gait;
+    return { id, unreadable: store.state.gaits.find((gait) => gait.id === id && gait.problem) };
+  };
+  list.addEventListener("click", (event) => {
+    const { id, unreadable } = chosen(event);
+    if (unreadable) showWaysOut(store, unreadable);
+    else if (id) {
+      selectGait(store, id);
+      closeOverStage();
+    }
+  });
+  list.addEventListener("dblclick", (event) => {
+    const { id, unreadable } = chosen(event);
+    if (id && !unreadable) rename(store, id);
+  });
+}
+
+/** Opens the group of a gait when it is chosen or is found unreadable; the person may fold it again. */
+function createRevealer(folds) {
+  const troubled = new Set();
+  let revealed = null;
+  return ({ gaits, selected }) => {
     for (const { id, group, problem } of gaits) {
       if (!problem || troubled.has(id)) continue;
       troubled.add(id);
@@ -287,7 +293,26 @@ export function mountGaits(store) {
     if (!chosen) return;
     revealed = selected;
     folds.reveal(chosen.group);
-  }
+  };
+}
+
+/** @type {(id: string) => HTMLElement|null} */
+let lineOf = () => null;
+
+/** The line of a gait, with its group open and no search on; null where there is none. */
+export const lineInList = (id) => lineOf(id);
+
+/** Builds the list and keeps it current; moves on where the shown gait has gone. */
+export function mountGaits(store) {
+  const list = byId("gaits");
+  let listed = null;
+  const search = gaitSearch(() => draw(store.state));
+  const folds = createFolds();
+  const { lines, draw } = createRows(list, { store, search, folds });
+  const reveal = createRevealer(folds);
+  list.before(search.element);
+  mountWholeNames(list);
+  mountChoice(list, store);
 
   lineOf = (id) => {
     const gait = store.state.gaits.find((one) => one.id === id);
@@ -295,7 +320,7 @@ export function mountGaits(store) {
     search.clear();
     folds.reveal(gait.group);
     draw(store.state);
-    return parts.get(id).button;
+    return lines.get(id).button;
   };
 
   const timesOf = (view) => [view?.id, view?.robot_seconds, view?.speed, view?.turn_rate];
@@ -304,14 +329,14 @@ export function mountGaits(store) {
     (state) => {
       const { gaits, selected, greeted } = state;
       const kept = new Set(gaits.map(({ id }) => id));
-      for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);
-      const row = parts.get(selected)?.element;
+      for (const id of lines.keys()) if (!kept.has(id)) lines.delete(id);
+      const row = lines.get(selected)?.element;
       const place = row?.offsetTop;
       reveal(state);
       draw(state);
-      // A gait that was just made may be shown before the list tells of it: only one that was listed can be gone.
+      // A gait that was just made may be shown before the list tells of it: only a listed one can be gone.
       if (kept.has(selected)) {
-        const shown = parts.get(selected)?.element;
+        const shown = lines.get(selected)?.element;
         // A name that sorts elsewhere takes its row along.
         if (shown && (listed !== selected || (shown.offsetTop !== place && !isPointedAt(shown))))
           bringIntoSight(shown);
@@ -319,19 +344,6 @@ export function mountGaits(store) {
       } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
     },
   );
-}
-
-/** Whether the pointer is over a row's list: what lies under it must not move away from a click. A closed group's rows have no list. */
-const isPointedAt = (row) => row.parentElement?.matches(":hover") ?? false;
-
-/** Scrolls to the chosen row, for some frames: rows above it have their true height only once they are drawn. */
-function bringIntoSight(row, frames = SETTLING_FRAMES) {
-  row.scrollIntoView({ block: "nearest" });
-  const goOn = () => {
-    if (row.isConnected && row.firstChild.getAttribute("aria-current") && !isPointedAt(row))
-      bringIntoSight(row, frames - 1);
-  };
-  if (frames > 0) requestAnimationFrame(goOn);
 }
 
 /** Whether a gait's line has every word of the search. */
@@ -344,7 +356,8 @@ function found(gait, search) {
 /**
  * Builds the field. `show` gets the number of matches and the number of gaits.
  * @param {(search: string) => void} changed called with what is searched for
- * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string, clear: () => void}}
+ * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string,
+ *   clear: () => void}}
  */
 function gaitSearch(changed) {
   const title =
@@ -378,7 +391,7 @@ function gaitSearch(changed) {
     show(listed, count) {
       nothing.hidden = listed > 0 || !field.value;
       if (!listed)
-        nothing.textContent = `No gait matches “${field.value.trim()}”. ` + `Esc shows all ${count} gaits.`;
+        nothing.textContent = `No gait matches “${field.value.trim()}”. Esc shows all ${count} gaits.`;
     },
   };
 }

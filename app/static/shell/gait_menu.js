@@ -1,4 +1,4 @@
-/** The menus over the list of gaits: new gaits, and acts on the shown one (copy, export, delete with undo). */
+/** The menus over the list of gaits: new gaits, and acts on the shown one, such as export and delete. */
 
 import { api } from "../api/gaits.js";
 import { freeName } from "../document/gait_names.js";
@@ -116,8 +116,8 @@ function gaitActs(store, edits, show, deletedHere) {
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} edits what was done before is part of a copy and of a file
  * @param {(id: string) => Promise<void>} show shows a gait
- * @returns {Record<"addNew"|"addAct", (entry: Record<string, any>) => void>} another entry of the menu New, and
- *   of the menu Gait, before Delete
+ * @returns {Record<"addNew"|"addAct", (entry: Record<string, any>) => void>} another entry of the menu New,
+ *   and of the menu Gait, before Delete
  */
 export function mountGaitTools(store, edits, show) {
   const deletedHere = new Set();

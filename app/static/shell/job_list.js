@@ -1,4 +1,4 @@
-/** The list of jobs: state, iteration, violation, cancel; a job's end is announced without taking the focus. */
+/** The list of jobs: state, iteration, violation, cancel. A job's end is announced; the focus stays. */
 
 import { api } from "../api/gaits.js";
 import { byId, h, setText } from "../lib/dom.js";
@@ -163,7 +163,11 @@ export function mountJobs(store, showGait) {
           parts.delete(id);
         }
       visible.forEach((job, index) => {
-        if (!parts.has(job.id)) parts.set(job.id, item(job.id, (id) => pick(store, id, showGait)));
+        if (!parts.has(job.id))
+          parts.set(
+            job.id,
+            item(job.id, (id) => pick(store, id, showGait)),
+          );
         const part = parts.get(job.id);
         show(part, job, job === shown);
         if (list.children[index] !== part.element)

@@ -44,7 +44,7 @@ const GROUPS = {
     ],
     [
       "Shift+arrows",
-      "Select cells. Shift+Home selects up to the start of the row, " + "Shift+End up to the end of the row",
+      "Select cells. Shift+Home selects up to the start of the row, Shift+End up to the end of the row",
     ],
     ["Shift+Space", "Select the row"],
     ["Ctrl+A", "Select all"],
@@ -66,7 +66,7 @@ const GROUPS = {
     ["Shift + drag", "Lock cells. A drag that starts on a locked cell unlocks cells"],
     [
       "Ctrl + drag",
-      "Select cells. Shift + click extends the selection. " + "A click on a row's name selects the row",
+      "Select cells. Shift + click extends the selection. A click on a row's name selects the row",
     ],
     [
       "Double click",

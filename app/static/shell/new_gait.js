@@ -1,4 +1,4 @@
-/** The dialog for a new gait: what the timeline is drawn from, with suggestions that work for the chosen robot. */
+/** The dialog for a new gait: what the timeline is drawn from, with suggestions for the chosen robot. */
 
 import { ApiError, api } from "../api/gaits.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";

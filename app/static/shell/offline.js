@@ -1,4 +1,4 @@
-/** Without the studio everything but Stop and looking is off, and the page says why; unsent edits are kept. */
+/** Without the studio all but Stop and looking is off, and the page says why; unsent edits are kept. */
 
 import { byId, setInert, setText } from "../lib/dom.js";
 

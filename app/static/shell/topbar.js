@@ -35,8 +35,8 @@ const linkTone = (robot) => LINK_TONES[robot?.link] ?? "quiet";
 const isStopped = ({ connected, robot }) => connected && ["stopping", "stopped"].includes(robot?.robot);
 
 /**
- * Sends Stop on two ways, each of which is enough: a request is tried again, and needs no known state; what goes over
- * the socket waits for no other request of this page, of which a browser lets six at most be on.
+ * Sends Stop on two ways, each of which is enough: a request is tried again, and needs no known state; what
+ * goes over the socket waits for no other request of this page, of which a browser lets six at most be on.
  */
 export async function stopRobot(store) {
   const button = byId("stop");
@@ -56,11 +56,12 @@ function refusedName(name, { gaits, selected }) {
   if (!name) return "A gait needs a name. Write a name, or press Escape.";
   const taken = gaits.some((gait) => gait.id !== selected && gait.name === name);
   return taken
-    ? `Another gait is called “${name}”. Write another name, such as “${freeName({ gaits }, name)}”, or press Escape.`
+    ? `Another gait is called “${name}”. `
+        + `Write another name, such as “${freeName({ gaits }, name)}”, or press Escape.`
     : null;
 }
 
-/** The field with the name; a name that was refused stays, with the sentence under it, until it is repaired or given up. */
+/** The field with the name; a refused name stays, with its sentence, until it is repaired or given up. */
 function nameField(store, edits) {
   const input = byId("gait-name");
   const refusal = refusalOf(input);
@@ -132,7 +133,7 @@ function savedWord({ view, pending, refused, connected }, unfit) {
   return view.edited ? "Not saved to a file" : "Saved";
 }
 
-/** Every edit is in the studio's database before it is shown as done; Save writes the file that others can read. */
+/** Every edit is in the studio's database before it is shown as done; Save writes its file for others. */
 function savedHelp(view) {
   const file = view.saved_at
     ? `Last saved to the data folder: ${clockTime(view.saved_at)}.`
@@ -178,9 +179,16 @@ function showState(element, tone, word, isQuiet) {
   element.classList.toggle("hidden-text", isQuiet);
 }
 
-function mountStates(store) {
+/** What the robot does; the name of the gait that runs where it is not the shown one. */
+function robotWord(now, selected) {
+  const word = now?.robot ?? "unknown";
+  const isOther = runIsOn(now) && now.run?.gait_name && now.run.gait !== selected;
+  return isOther ? `${word}: ${now.run.gait_name}` : word;
+}
+
+function mountRobotState(store) {
   const sentence = h("span", { class: "hidden-text" });
-  const [link, robot, operator] = ["link", "robot-status", "operator"].map(byId);
+  const [link, robot] = ["link", "robot-status"].map(byId);
   store.watch(
     ({ robot: now, connected, selected }) => [
       now?.link,
@@ -199,12 +207,7 @@ function mountStates(store) {
         connected ? (now?.link ?? "unknown") : "no studio",
         isReady,
       );
-      showState(
-        robot,
-        robotTone(now),
-        `${now?.robot ?? "unknown"}${runIsOn(now) && now.run?.gait_name && now.run.gait !== selected ? `: ${now.run.gait_name}` : ""}`,
-        !isReady,
-      );
+      showState(robot, robotTone(now), robotWord(now, selected), !isReady);
       robot.append(sentence);
       setAttribute(
         link,
@@ -222,6 +225,11 @@ function mountStates(store) {
       setAttribute(robot, "title", words || null);
     },
   );
+}
+
+function mountOperator(store) {
+  const operator = byId("operator");
+  operator.addEventListener("click", () => changeOperator(store));
   store.watch(
     (state) => [state.operator],
     (state) => {
@@ -249,8 +257,8 @@ function mountStates(store) {
 export function mountTopbar(store, edits) {
   mountName(store, edits);
   mountHistory(store, edits);
-  mountStates(store);
-  byId("operator").addEventListener("click", () => changeOperator(store));
+  mountRobotState(store);
+  mountOperator(store);
   byId("help").addEventListener("click", showKeys);
   takeOverStop();
   byId("stop").addEventListener("click", () => stopRobot(store));

@@ -28,13 +28,14 @@ function option(version, choose) {
   ]
     .filter(Boolean)
     .join(", ");
+  const when = clockTime(version.made);
   return h(
     "li",
     {
       role: "option",
       id: `version-${version.number}`,
       "aria-selected": "false",
-      "aria-label": `Version ${version.number}, ${titleOf(version)}, ${clockTime(version.made)}${detail ? `, ${detail}` : ""}`,
+      "aria-label": [`Version ${version.number}`, titleOf(version), when, detail].filter(Boolean).join(", "),
       on: { click: () => choose(version.number) },
     },
     h(
@@ -43,10 +44,7 @@ function option(version, choose) {
       h("span", { class: "number quiet", text: String(version.number) }),
       h("b", { text: titleOf(version) }),
     ),
-    h("span", {
-      class: "version-when quiet",
-      text: [clockTime(version.made), detail].filter(Boolean).join(" · "),
-    }),
+    h("span", { class: "version-when quiet", text: [when, detail].filter(Boolean).join(" · ") }),
   );
 }
 
@@ -76,15 +74,50 @@ function parts(id) {
   return { id, list, difference, against, restore, name, heading: h("h4", {}) };
 }
 
+/** Shows that there is no version. */
+function showNone({ list, restore, difference }) {
+  list.removeAttribute("aria-activedescendant");
+  setAllowed(restore, "There is no version yet.");
+  const none =
+    "There is no version yet. "
+    + "The studio makes a version when you save the gait, approve it or name its state. "
+    + "While you edit, it also makes a version every two minutes.";
+  difference.replaceChildren(h("p", { class: "quiet", text: none }));
+}
+
+/** Shows the versions in the list and in the field that compares; what the field had stays. */
+function fill({ list, against }, versions, choose) {
+  list.replaceChildren(...versions.map((version) => option(version, choose)));
+  const kept = against.value;
+  against.replaceChildren(
+    h("option", { value: "", text: "the present state" }),
+    ...versions.map((version) =>
+      h("option", { value: version.number, text: `version ${version.number}, ${titleOf(version)}` }),
+    ),
+  );
+  against.value = versions.some(({ number }) => String(number) === kept) ? kept : "";
+}
+
+/** Shows which version is chosen, and offers to restore it. */
+function markChosen({ list, restore }, { number, present, problem }) {
+  for (const item of list.children)
+    setAttribute(item, "aria-selected", String(item.id === `version-${number}`));
+  list.setAttribute("aria-activedescendant", `version-${number}`);
+  byId(`version-${number}`)?.scrollIntoView({ block: "nearest" });
+  const same = present ? "The gait is already the same as this version." : null;
+  setAllowed(restore, problem ?? same, `Restore version ${number}. Undo brings back the present state`);
+}
+
 /** Fills an open panel and keeps it current. */
-function panel(store, edits, ui) {
+function panel(edits, ui) {
   let versions = [];
   let chosen = null;
   const [beginDifference, beginRefresh] = [ticket(), ticket()];
+  const place = (number) => versions.findIndex((one) => one.number === number);
 
   const showDifference = attempt(async () => {
     const isOld = beginDifference();
-    const { problem } = versions.find(({ number }) => number === chosen);
+    const { problem } = versions[place(chosen)];
     if (problem) {
       ui.difference.replaceChildren(h("p", { text: problem }));
       return;
@@ -99,14 +132,7 @@ function panel(store, edits, ui) {
 
   function choose(number) {
     chosen = number;
-    const version = versions.find((one) => one.number === number);
-    for (const item of ui.list.children)
-      setAttribute(item, "aria-selected", String(item.id === `version-${number}`));
-    ui.list.setAttribute("aria-activedescendant", `version-${number}`);
-    byId(`version-${number}`)?.scrollIntoView({ block: "nearest" });
-    const same = version.present ? "The gait is already the same as this version." : null;
-    const help = `Restore version ${number}. Undo brings back the present state`;
-    setAllowed(ui.restore, version.problem ?? same, help);
+    markChosen(ui, versions[place(number)]);
     return showDifference();
   }
 
@@ -115,30 +141,13 @@ function panel(store, edits, ui) {
     const found = await api.versions(ui.id);
     if (isOld()) return undefined;
     ({ versions } = found);
-    ui.list.replaceChildren(...versions.map((version) => option(version, choose)));
-    const kept = ui.against.value;
-    ui.against.replaceChildren(
-      h("option", { value: "", text: "the present state" }),
-      ...versions.map((version) =>
-        h("option", { value: version.number, text: `version ${version.number}, ${titleOf(version)}` }),
-      ),
-    );
-    ui.against.value = versions.some(({ number }) => String(number) === kept) ? kept : "";
-    if (!versions.length) {
-      ui.list.removeAttribute("aria-activedescendant");
-      setAllowed(ui.restore, "There is no version yet.");
-      const none =
-        "There is no version yet. "
-        + "The studio makes a version when you save the gait, approve it or name its state. "
-        + "While you edit, it also makes a version every two minutes.";
-      ui.difference.replaceChildren(h("p", { class: "quiet", text: none }));
-      return undefined;
-    }
-    return choose(versions.some(({ number }) => number === chosen) ? chosen : versions[0].number);
+    fill(ui, versions, choose);
+    if (!versions.length) return showNone(ui);
+    return choose(place(chosen) >= 0 ? chosen : versions[0].number);
   }
 
   function roam(event) {
-    const at = versions.findIndex(({ number }) => number === chosen);
+    const at = place(chosen);
     const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: versions.length - 1 }[event.key];
     if (to === undefined) return;
     event.preventDefault();
@@ -175,7 +184,7 @@ export function mountVersions(store, edits) {
   function show() {
     const { view } = store.state;
     const ui = parts(view.id);
-    const behaviour = panel(store, edits, ui);
+    const behaviour = panel(edits, ui);
     openDialog((close) => {
       const frame = dialogFrame(
         `Versions of ${view.name}`,

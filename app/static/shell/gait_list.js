@@ -76,7 +76,7 @@ function takeNamed() {
   return named;
 }
 
-/** After a greeting: the gait that the address names, else the shown, the running, the last used, the first. */
+/** After a greeting: the gait that the address names, else the shown, running, last used or first one. */
 export function selectAfterHello(store) {
   const { gaits, selected, robot, view } = store.state;
   const named = takeNamed();

@@ -111,13 +111,15 @@ function gaitActs(store, edits, show, deletedHere) {
   ];
 }
 
+/** @typedef {{text: string, help: string, act: () => void, group?: string, refusal?: () => any}} Entry */
+
 /**
  * Builds the menus.
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} edits what was done before is part of a copy and of a file
  * @param {(id: string) => Promise<void>} show shows a gait
- * @returns {Record<"addNew"|"addAct", (entry: Record<string, any>) => void>} another entry of the menu New,
- *   and of the menu Gait, before Delete
+ * @returns {Record<"addNew"|"addAct", (entry: Entry) => void>} another entry of the menu New, and of the menu
+ *   Gait, before Delete
  */
 export function mountGaitTools(store, edits, show) {
   const deletedHere = new Set();

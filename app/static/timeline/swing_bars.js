@@ -42,7 +42,7 @@ const buildBar = () => h("div", { class: "swing-bar" }, h("span", {}, h("i", { c
  * Draws a row's bars.
  * @param {Record<string, any>} bars of `buildBars`
  * @param {string} steps the row, 1 and 0
- * @param {Record<string, any>} axis of `axisOf`
+ * @param {ReturnType<typeof import("../state/time_axis.js").axisOf>} axis
  * @param {number} width of the window, px
  */
 export function drawBars(bars, steps, axis, width) {

@@ -97,12 +97,15 @@ function clipboardActs({ document, region, stateOn, put, chosen }, focused) {
     return blockOf(document(), cells);
   }
 
+  /** @returns {string[]|null} */
   function cut() {
     const cells = chosen();
-    if (!cells) return toast(NOTHING);
+    const outcome = cells ? outcomeOf("stance", stateOn(cells)) : { reason: NOTHING };
+    if (outcome.reason && outcome.reason !== UNCHANGED) {
+      toast(outcome.reason);
+      return null;
+    }
     const block = blockOf(document(), cells);
-    const outcome = outcomeOf("stance", stateOn(cells));
-    if (outcome.reason && outcome.reason !== UNCHANGED) return toast(outcome.reason);
     if (!outcome.reason) put({ ...outcome, label: `Cut ${regionText(document(), cells)}` });
     return block;
   }

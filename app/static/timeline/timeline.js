@@ -65,7 +65,8 @@ function memoised(make) {
 
 /**
  * What is drawn: `parts` (rows) and `marks` (the layer over them) of `grid`; the window is `width` px wide.
- * @typedef {{grid: HTMLElement, marks: HTMLElement, parts: ReturnType<typeof buildRow>[], width: number}} Drawn
+ * @typedef {{grid: HTMLElement, marks: HTMLElement, width: number,
+ *   parts: ReturnType<typeof buildRow>[]}} Drawn
  */
 
 /**

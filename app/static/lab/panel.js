@@ -58,11 +58,44 @@ function buildPanel() {
   return { begin, show, leave, closed };
 }
 
+/** What modules of videos, cameras and learning show on the page; each is loaded when it is first needed. */
+function laterParts(page) {
+  const later = (load, name) =>
+    attempt(async (...values) => {
+      const isOld = page.begin();
+      const { [name]: act } = await load();
+      if (!isOld()) act(page, ...values);
+    });
+  const ofVideos = () => import("../videos/video.js");
+  const ofCameras = () => import("../cameras/camera_list.js");
+  const ofLearning = () => import("../learning/learning.js");
+  return {
+    videos: later(ofVideos, "openVideos"),
+    video: later(ofVideos, "openVideoOf"),
+    cameras: later(ofCameras, "openCameras"),
+    look: later(ofCameras, "watchCamera"),
+    setUp: later(ofCameras, "setUpCamera"),
+    learn: later(ofLearning, "openLearning"),
+  };
+}
+
+/** Deletes a trial, and offers to bring it back. */
+const removeTrial = ({ all, one }) =>
+  attempt(async ({ id, name }) => {
+    await trialApi.remove(id);
+    await all();
+    const undo = attempt(async () => {
+      await trialApi.restore(id);
+      one(id);
+    });
+    toast(`The trial “${name}” is deleted.`, { action: { label: "Undo", act: undo } });
+  });
+
 /**
  * Builds the panel, closed.
  * @param {import("../state/store.js").Store} store
- * @returns {{open: () => void, go: (wanted: Record<string, any>) => void, leave: () => boolean, closed: () => void}} `leave` closes its drawer; true where
- *   it was open; `closed` is called when the drawer was closed
+ * @returns {{open: () => void, go: (wanted: Record<string, any>) => void, leave: () => boolean, closed: () =>
+ *   void}} `leave` closes its drawer; true where it was open; `closed` is called when the drawer was closed
  */
 export function mountTrials(store) {
   addStyles();
@@ -72,6 +105,7 @@ export function mountTrials(store) {
     attempt((gait) => selectGait(store, gait)),
   );
   const page = { store, show, begin, all: () => all(), one: (id) => one(id) };
+  const { videos, video: oneVideo, cameras, look, setUp, learn } = laterParts(page);
 
   /** Shows what `make` returns, unless something else was opened meanwhile. */
   const shown = (make) =>
@@ -81,55 +115,15 @@ export function mountTrials(store) {
       if (isOld()) gone?.();
       else show(element, gone);
     });
-
-  /** Calls a function of a module that is loaded when it is first needed. */
-  const later = (load, name) =>
-    attempt(async (...values) => {
-      const isOld = begin();
-      const { [name]: act } = await load();
-      if (!isOld()) act(page, ...values);
-    });
-  const ofVideos = () => import("../videos/video.js");
-  const ofCameras = () => import("../cameras/camera_list.js");
-  const [videos, oneVideo] = [later(ofVideos, "openVideos"), later(ofVideos, "openVideoOf")];
-  const [cameras, look, setUp] = [
-    later(ofCameras, "openCameras"),
-    later(ofCameras, "watchCamera"),
-    later(ofCameras, "setUpCamera"),
-  ];
-  const learn = later(() => import("../learning/learning.js"), "openLearning");
-  const all = shown(() =>
-    trialList({
-      store,
-      open: one,
-      add,
-      band,
-      videos: () => videos(),
-      cameras: () => cameras(),
-      learn: () => learn(),
-    }),
-  );
+  const all = shown(() => trialList({ store, open: one, add, band, videos, cameras, learn }));
   const one = shown((id) => trialDetail(store, id, { all, remove, tracks, video: oneVideo }));
   const band = shown((group) => trialBand(group, { all, open: one, tracks }));
+  const remove = removeTrial(page);
 
   function add() {
     begin();
     show(trialForm({ store, all, done: (added) => (added.length === 1 ? one(added[0].id) : all()) }));
   }
-
-  const remove = attempt(async ({ id, name }) => {
-    await trialApi.remove(id);
-    await all();
-    toast(`The trial “${name}” is deleted.`, {
-      action: {
-        label: "Undo",
-        act: attempt(async () => {
-          await trialApi.restore(id);
-          one(id);
-        }),
-      },
-    });
-  });
 
   store.watch(
     ({ robot }) => [runIsOn(robot)],

@@ -122,20 +122,80 @@ function setRow(set, remove) {
   );
 }
 
+/** Shows how far a running job is until it has ended; `ended` gets it then. */
+function followJob(job, ended) {
+  const progress = progressPart(attempt(async () => progress.show(await learningApi.cancel(job.id))));
+  let timer = null;
+  let wait = POLL_MS;
+
+  function begin() {
+    timer = setTimeout(poll, wait);
+  }
+
+  async function poll() {
+    try {
+      const now = await learningApi.course(job.id);
+      if (timer === null) return;
+      if (OPEN.has(now.state)) {
+        progress.show(now);
+        wait = POLL_MS;
+        begin();
+      } else await ended(now);
+    } catch (error) {
+      if (timer === null) return;
+      progress.showError(error.message);
+      if (error.status === 0) {
+        wait = Math.min(2 * wait, MOST_POLL_MS);
+        begin();
+      } else report(error);
+    }
+  }
+
+  progress.show(job);
+  return {
+    element: progress.element,
+    begin,
+    leave() {
+      clearTimeout(timer);
+      timer = null;
+    },
+  };
+}
+
+const namedList = (label, head, items) =>
+  items.length
+    ? [h("h2", { text: head }), h("ul", { class: "run-list", role: "list", "aria-label": label }, ...items)]
+    : [];
+
+/** The page of learning; `first` is the running job, or the choice of data. */
+function learningPage(first, { jobs, sets }, { all, open, remove }) {
+  const ended = jobs.filter(({ state }) => !OPEN.has(state)).map((job) => jobRow(job, open));
+  const kept = sets.map((set) => setRow(set, remove));
+  return h(
+    "div",
+    { class: "run-all learning" },
+    h("button", { class: "link", text: "All trials", on: { click: all } }),
+    h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })),
+    h("p", { class: "quiet", text: PURPOSE }),
+    ...first,
+    ...namedList("Learning jobs", "Learned", ended),
+    ...namedList("Sets of physics parameters", "Sets", kept),
+  );
+}
+
 /**
  * Opens learning in the panel of trials.
- * @param {{store: Record<string, any>, show: (element: Element, onLeave?: () => void) => void, begin: () => () => boolean, all: () => void}} page
- *   `begin()` returns a function that returns whether something else was opened since
+ * @param {Object} page
+ * @param {import("../state/store.js").Store} page.store
+ * @param {(element: Element, onLeave?: () => void) => void} page.show
+ * @param {() => () => boolean} page.begin returns a function that returns whether something else was opened
+ *   since
+ * @param {() => void} page.all
  */
-export async function openLearning(page) {
+export async function openLearning({ store, show, begin, all }) {
   addStyles();
-  const { store, show, begin, all } = page;
-  let timer = null;
-  const leave = () => {
-    clearTimeout(timer);
-    timer = null;
-  };
   const setsChanged = () => store.set({ physicsSets: (store.state.physicsSets ?? 0) + 1 });
+  const showResult = (job) => show(learnedResult(job, { back: list, keep }));
 
   const list = attempt(async () => {
     const isOld = begin();
@@ -146,94 +206,38 @@ export async function openLearning(page) {
     ]);
     if (isOld()) return;
     const on = jobs.find(({ state }) => OPEN.has(state));
-    const ended = jobs.filter(({ state }) => !OPEN.has(state));
-    const rows = (label, head, items) =>
-      items.length
-        ? [
-            h("h2", { text: head }),
-            h("ul", { class: "run-list", role: "list", "aria-label": label }, ...items),
-          ]
-        : [];
-    const followed = on && following(on);
-    show(
-      h(
-        "div",
-        { class: "run-all learning" },
-        h("button", { class: "link", text: "All trials", on: { click: all } }),
-        h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })),
-        h("p", { class: "quiet", text: PURPOSE }),
-        ...(followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)]),
-        ...rows(
-          "Learning jobs",
-          "Learned",
-          ended.map((job) => jobRow(job, open)),
-        ),
-        ...rows(
-          "Sets of physics parameters",
-          "Sets",
-          sets.map((set) => setRow(set, remove)),
-        ),
-      ),
-      leave,
-    );
+    const followed = on && followJob(on, ended);
+    const first = followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)];
+    show(learningPage(first, { jobs, sets }, { all, open, remove }), followed?.leave);
     followed?.begin();
   });
 
-  function following(job) {
-    const progress = progressPart(attempt(async () => progress.show(await learningApi.cancel(job.id))));
-    progress.show(job);
-    let wait = POLL_MS;
-    const again = () => {
-      timer = setTimeout(poll, wait);
-    };
-    async function poll() {
-      try {
-        const now = await learningApi.course(job.id);
-        if (timer === null) return;
-        if (OPEN.has(now.state)) {
-          progress.show(now);
-          wait = POLL_MS;
-          again();
-          return;
-        }
-        announce(now.sentence);
-        if (now.state === "done") show(learnedResult(now, { back: list, keep }), leave);
-        else await list();
-      } catch (error) {
-        if (timer === null) return;
-        progress.showError(error.message);
-        if (error.status === 0) {
-          wait = Math.min(2 * wait, MOST_POLL_MS);
-          again();
-        } else {
-          report(error);
-        }
-      }
-    }
-    // Not before it is shown: what was shown until then ends its own following.
-    return { element: progress.element, begin: again };
+  async function ended(job) {
+    announce(job.sentence);
+    if (job.state === "done") showResult(job);
+    else await list();
   }
 
   /** Does something, then shows the list again unless something else was opened meanwhile. */
-  const changed = async (act) => {
+  async function changed(act) {
     const isOld = begin();
     const made = await act();
     if (!isOld()) await list();
     return made;
-  };
+  }
+
   const start = attempt((wanted) => changed(() => learningApi.start(wanted)));
   const open = attempt(async (id) => {
     const isOld = begin();
     const job = await learningApi.course(id);
-    if (!isOld()) show(learnedResult(job, { back: list, keep }), leave);
+    if (!isOld()) showResult(job);
   });
 
   const keep = attempt(async ({ id }, name) => {
     const { key } = await changed(() => learningApi.keep(id, name));
     setsChanged();
     toast(
-      `The set “${key}” is saved. `
-        + "To use the set in simulations, choose the set in Simulate under Physics.",
+      `The set “${key}” is saved. To use the set in simulations, choose the set in Simulate under Physics.`,
     );
   });
 

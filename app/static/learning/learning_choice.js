@@ -41,7 +41,7 @@ function trialLine(trial, changed) {
   return { box, trial, element: h("li", {}, label, why && h("p", { class: "quiet", text: why })) };
 }
 
-/** What is missing, from the trials that there are and the gaits of those that are ticked; null where nothing is. */
+/** What is missing, from the trials and the count of gaits that are ticked; null where nothing is. */
 function missingText(trials, gaits) {
   if (gaits >= LEAST_GAITS) return null;
   const ticked = gaits ? `You ticked trials of ${counted(gaits, "gait")}` : "No trial is ticked";

@@ -13,7 +13,7 @@ const ERRORS =
   "Mean absolute error of the predictions over all gaits. “Left out” means that the predicted "
   + "gait was not used for learning";
 const FALLS =
-  "If the robot falls in the simulation of a gait, the whole distance of that gait counts as " + "error. ";
+  "If the robot falls in the simulation of a gait, the whole distance of that gait counts as error. ";
 const figure = (value) => (value === 0 ? "0" : compact(value));
 const withUnit = (value, unit) => `${figure(value)} ${unit}`.trim();
 
@@ -80,7 +80,7 @@ function gaitTable({ gaits, foretold: predicted }) {
   ];
   return table(
     "Gaits, cm",
-    "Distance as in the published tables, from the largest displacements of " + "the feet",
+    "Distance as in the published tables, from the largest displacements of the feet",
     ["", "real", "plan", "usual", "left out"],
     gaits.map(({ name }, place) =>
       h(
@@ -218,10 +218,12 @@ function predictionPlot({ gaits, foretold: predicted }) {
   const toX = scale(SIZE.left, SIZE.width - SIZE.right);
   const toY = scale(SIZE.height - SIZE.bottom, SIZE.top);
   const ticks = gridPlaces(low, high, gridStep((high - low) * TICK_ROOM));
-  const values = gaits.map(
-    ({ name, distance_cm: distance }, place) =>
-      `${name}: ${fixed(distance)} measured, ${drawn.map(({ prediction }) => `${fixed(prediction.distances_cm[place])} ${prediction.title}`).join(", ")}`,
-  );
+  const values = gaits.map(({ name, distance_cm: distance }, place) => {
+    const said = drawn.map(
+      ({ prediction }) => `${fixed(prediction.distances_cm[place])} ${prediction.title}`,
+    );
+    return `${name}: ${fixed(distance)} measured, ${said.join(", ")}`;
+  });
   return h(
     "figure",
     { class: "trial-plot" },

@@ -12,6 +12,7 @@ import { displacementFrame } from "./trial_displacement.js";
 const MOST_TOGETHER = 20;
 const TEXTS = { mean: "mean", trial: "each trial", plan: "planned" };
 
+/** @param {Record<string, any>} band */
 const kindsOf = ({ has_plan: hasPlan }) => ["mean", "trial", ...(hasPlan ? ["plan"] : [])];
 
 /** Rectangles between the least and the greatest place of each moment, as one shape. */
@@ -22,8 +23,8 @@ function cover({ low, high }, toX, toY) {
       toX(high.x[at]) + 0.5,
       toY(high.y[at]) - 0.5,
       toY(low.y[at]) + 0.5,
-    ];
-    return `M${left.toFixed(1)} ${top.toFixed(1)}H${right.toFixed(1)}V${bottom.toFixed(1)}H${left.toFixed(1)}Z`;
+    ].map((value) => value.toFixed(1));
+    return `M${left} ${top}H${right}V${bottom}H${left}Z`;
   });
   return boxes.join("");
 }

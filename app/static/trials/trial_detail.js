@@ -1,13 +1,14 @@
 /** One trial: the displacement of each foot compared with its plan, by iteration, with a note and files. */
 
 import { trialApi } from "../api/trials.js";
-import { h, onPress, setText } from "../lib/dom.js";
+import { h, onPress } from "../lib/dom.js";
 import { clockTime, counted, fixed } from "../lib/format.js";
 import { figureTable, footName } from "../lib/tables.js";
 import { attempt } from "../lib/toasts.js";
 import { comparisonPart } from "./trial_comparison.js";
 import { displacementPlot } from "./trial_displacement.js";
 import { exampleMark } from "./trial_list.js";
+import { notePart } from "./trial_note.js";
 import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
 import { followTrial } from "./trial_sync.js";
@@ -24,7 +25,7 @@ const net = ({ net_distance: distance, net_angle_deg: angle, net_error_percent: 
 ];
 
 const ANGLE_HELP =
-  "Angle: direction of the movement, measured from the x axis of the platform where the " + "robot walks";
+  "Angle: direction of the movement, measured from the x axis of the platform where the robot walks";
 const PUBLISHED_HELP =
   "Distance as in the published tables, from the largest displacements of a foot along "
   + `x and y. This distance is never negative. ${ANGLE_HELP}`;
@@ -163,7 +164,8 @@ function filesLine(trial, remove) {
       download: "",
       text: "Report",
       title:
-        "One HTML file with the figures, plots, note, photos and origin of this trial. You can open the file offline and print it",
+        "One HTML file with the figures, plots, note, photos and origin of this trial. "
+        + "You can open the file offline and print it",
     }),
     !trial.deleted && erase,
   );
@@ -180,75 +182,95 @@ function keepingMark(plots, redraw) {
 }
 
 /**
+ * The plots of a trial, with marks at the ends of iterations that can be moved.
+ * @param {Record<string, Record<string, any>|null>} sources paths, which may change before the next `draw`
+ * @param {(ends: number[]) => Promise<boolean>} keep
+ * @returns {{element: HTMLElement, draw: (trial?: Record<string, any>) => void}}
+ */
+function plotsPart(sources, keep) {
+  const element = h("div", { class: "trial-plots" });
+  let shown = null;
+  let isLate = false;
+
+  async function moved(part, frame) {
+    const ends = shown.parts.map(({ end }, index) => (index === part ? frame : end));
+    if (!(await keep(ends))) draw();
+  }
+
+  /** Draws the plots, but not under a hand that holds a mark: when that lets go. */
+  function draw(trial = shown) {
+    shown = trial;
+    isLate = element.querySelector("[data-held]") !== null;
+    if (isLate) return;
+    keepingMark(element, () =>
+      element.replaceChildren(pathPlot(sources), displacementPlot(sources, shown, moved)),
+    );
+  }
+
+  element.addEventListener("lostpointercapture", () => {
+    if (isLate) draw();
+  });
+  return { element, draw };
+}
+
+/** What a trial is, above its note and plots. */
+const headParts = (trial, { all, video }) =>
+  [
+    h("button", { class: "link", text: "All trials", on: { click: all } }),
+    h("div", { class: "run-line run-title" }, h("b", { text: trial.name })),
+    exampleLine(trial),
+    deletedLine(trial),
+    facts(trial),
+    sourcePart(trial, video),
+  ].filter(Boolean);
+
+/** What was measured in a trial, and its files. */
+const tailParts = (trial, { change, comparison, remove }) =>
+  [
+    endsLine(trial, change),
+    comparison,
+    iterationTable(trial),
+    movementTable("Movement as published", PUBLISHED_HELP, trial.figures, trial.plan, published),
+    movementTable("Movement from first to last frame", NET_HELP, trial.figures, trial.plan, net),
+    slipTable(trial),
+    filesLine(trial, remove),
+  ].filter(Boolean);
+
+/**
  * Builds a trial's page in the panel.
  * @param {import("../state/store.js").Store} store
  * @param {string} id
- * @param {{all: () => void, remove: (trial: Record<string, any>) => void, tracks: Function, video: (id: string) => void}} acts `tracks` makes the
- *   switch of the 3D scene
+ * @param {Object} acts
+ * @param {() => void} acts.all
+ * @param {(trial: Record<string, any>) => void} acts.remove
+ * @param {Function} acts.tracks makes the switch of the 3D scene
+ * @param {(id: string) => void} acts.video
  * @returns {Promise<{element: HTMLElement, leave: () => void}>}
  */
 export async function trialDetail(store, id, { all, remove, tracks, video }) {
   const [trial, paths] = await Promise.all([trialApi.read(id), trialApi.paths(id)]);
   const sources = { tracked: paths.track, planned: paths.plan, simulated: null };
-  const [head, plots, tail] = ["trial-part", "trial-plots", "trial-part"].map((name) =>
-    h("div", { class: name }),
-  );
+  const [head, tail] = [1, 2].map(() => h("div", { class: "trial-part" }));
+  const plots = plotsPart(sources, (ends) => sync.change({ ends }));
   const comparison = comparisonPart(id, (simulated) => {
     sources.simulated = simulated;
-    drawPlots();
+    plots.draw();
   });
   const scene = tracks([id]);
   const note = notePart(async (text) => {
     if (!(await sync.change({ note: text }, "Note kept."))) note.offer();
   });
-  let shown = trial;
-  let isLate = false;
-
-  /** Draws the plots, but not under a hand that holds a mark: when that lets go. */
-  function drawPlots() {
-    isLate = plots.querySelector("[data-held]") !== null;
-    if (isLate) return;
-    const moved = async (part, frame) => {
-      if (!(await sync.change({ ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })))
-        drawPlots();
-    };
-    keepingMark(plots, () =>
-      plots.replaceChildren(pathPlot(sources), displacementPlot(sources, shown, moved)),
-    );
-  }
+  const change = (changes) => sync.change(changes);
 
   function draw(now) {
-    shown = now;
     note.show(now.note);
-    head.replaceChildren(
-      ...[
-        h("button", { class: "link", text: "All trials", on: { click: all } }),
-        h("div", { class: "run-line run-title" }, h("b", { text: now.name })),
-        exampleLine(now),
-        deletedLine(now),
-        facts(now),
-        sourcePart(now, video),
-      ].filter(Boolean),
-    );
-    tail.replaceChildren(
-      ...[
-        endsLine(now, (changes) => sync.change(changes)),
-        comparison.element,
-        iterationTable(now),
-        movementTable("Movement as published", PUBLISHED_HELP, now.figures, now.plan, published),
-        movementTable("Movement from first to last frame", NET_HELP, now.figures, now.plan, net),
-        slipTable(now),
-        filesLine(now, remove),
-      ].filter(Boolean),
-    );
-    drawPlots();
+    head.replaceChildren(...headParts(now, { all, video }));
+    tail.replaceChildren(...tailParts(now, { change, comparison: comparison.element, remove }));
+    plots.draw(now);
     attempt(comparison.refresh)();
     scene.refresh();
   }
 
-  plots.addEventListener("lostpointercapture", () => {
-    if (isLate) drawPlots();
-  });
   draw(trial);
   const sync = followTrial(store, trial, draw);
   const element = h(
@@ -258,7 +280,7 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     note.element,
     photosPart(id),
     scene.element,
-    plots,
+    plots.element,
     tail,
   );
   return {
@@ -273,7 +295,10 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
 
 const stretches = (count, what) => (count ? `${what}${count === 1 ? "" : `, ${count} times`}.` : null);
 
-/** How often a foot was out of sight, and how often something else was taken for it. */
+/**
+ * How often a foot was out of sight, and how often something else was taken for it.
+ * @param {Record<string, any>} trial
+ */
 function sights({ unseen, false: wrong }) {
   const words = [
     stretches(unseen.length, "The camera did not see a foot"),
@@ -319,62 +344,4 @@ function sourcePart(trial, open) {
       ),
     ...doubts.map((text) => h("p", { class: "why", data: { toneText: "caution" }, text })),
   );
-}
-
-/**
- * Builds the note's field, which stays while the rest of a trial is drawn again.
- * @param {(note: string) => Promise<*>} keep
- * @returns {{element: HTMLElement, show: (note: string) => void, offer: () => void}} `show` tells what is kept now; what was typed
- *   stays, and `offer` lets it be kept once more
- */
-function notePart(keep) {
-  const area = h("textarea", {
-    "aria-label": "Note",
-    rows: "2",
-    maxlength: "4000",
-    placeholder: "Note: floor, cable, observations",
-  });
-  const words = h("span");
-  const mine = h("button", { class: "link", text: "Save what I typed" });
-  const theirs = h("button", { class: "link", text: "Use the saved note" });
-  const choice = h(
-    "p",
-    { class: "why", role: "group", "aria-label": "Two notes", hidden: true },
-    words,
-    " ",
-    mine,
-    " · ",
-    theirs,
-  );
-  let known = "";
-
-  const typed = () => area.value.trim();
-
-  function offer() {
-    choice.hidden = typed() === known;
-    setText(words, known ? `The saved note is “${known}”.` : "The saved note is empty.");
-  }
-
-  area.addEventListener("change", () => {
-    if (choice.hidden && typed() !== known) keep(typed());
-  });
-  mine.addEventListener("click", () => {
-    choice.hidden = true;
-    keep(typed());
-  });
-  theirs.addEventListener("click", () => {
-    area.value = known;
-    choice.hidden = true;
-  });
-  return {
-    element: h("div", { class: "trial-note" }, area, choice),
-    offer,
-    show(note) {
-      const isTyped = typed() !== known;
-      const isOther = note !== known;
-      known = note;
-      if (!isTyped) area.value = note;
-      else if (isOther || !choice.hidden) offer();
-    },
-  };
 }

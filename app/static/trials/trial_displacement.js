@@ -30,14 +30,21 @@ export function displacementFrame([low, high], most, words) {
 
 const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
 
-/** The mean direction of the tracked feet. */
+/**
+ * The mean direction of the tracked feet.
+ * @param {Record<string, any>} paths
+ */
 function directionOf({ feet }) {
   const [dx, dy] = [mean(feet.map(({ x }) => x.at(-1) - x[0])), mean(feet.map(({ y }) => y.at(-1) - y[0]))];
   const length = Math.hypot(dx, dy) || 1;
   return [dx / length, dy / length];
 }
 
-/** The displacement of each foot along a direction, cm. */
+/**
+ * The displacement of each foot along a direction, cm.
+ * @param {Record<string, any>} paths
+ * @param {number[]} direction
+ */
 const displacementsAlong = ({ feet }, [dx, dy]) =>
   feet.map(({ x, y }) => x.map((value, index) => (value - x[0]) * dx + (y[index] - y[0]) * dy));
 
@@ -57,7 +64,11 @@ function between(knots, values, at) {
   return values[after - 1] + share * (values[after] - values[after - 1]);
 }
 
-/** Seconds of a track's frames and back; pictures need not come evenly. */
+/**
+ * Seconds of a track's frames and back; pictures need not come evenly.
+ * @param {Record<string, any>} track
+ * @param {number} seconds
+ */
 function clockOf({ frames, shares }, seconds) {
   const times = shares.map((share) => share * seconds);
   return {
@@ -123,7 +134,8 @@ function handle({ part, end, frames, rate, clock, toX, fromX, top, bottom, moved
 
 /**
  * The feet's displacement over time, with a handle at the end of each iteration but the last.
- * @param {{tracked: Record<string, any>, planned: Record<string, any>|null, simulated: Record<string, any>|null}} sources paths of `GET …/paths` and `…/beside`
+ * @param {Record<string, Record<string, any>|null>} sources paths of `GET …/paths` and `…/beside`: `tracked`,
+ *   `planned` and `simulated`
  * @param {{frames: number, seconds: number, frame_rate: number, parts: {end: number}[]}} trial
  * @param {(part: number, frame: number) => void} moved
  */
@@ -175,8 +187,8 @@ export function displacementPlot(sources, trial, moved) {
   const along = "Distance of each foot along the mean direction of the tracked feet";
   const help =
     ends.length > 1
-      ? `${along}. To move the end of an iteration, drag its mark, or click the mark and press the arrow `
-        + "keys."
+      ? `${along}. `
+        + "To move the end of an iteration, drag its mark, or click the mark and press the arrow keys."
       : along;
   return h(
     "figure",

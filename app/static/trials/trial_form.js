@@ -23,10 +23,48 @@ function wantedCm(view) {
   return Number((Math.hypot(last[0] - first[0], last[1] - first[1]) * 100).toFixed(2)) || null;
 }
 
+/** The choice of the plan that tracks are laid over: a gait as it is planned now, or that of a run. */
+function planChoice(store, kept) {
+  const { view } = store.state;
+  const select = h("select", {
+    "aria-label": "Compare with plan",
+    title: "The tracks are compared with this plan. The plan is saved with the trial",
+  });
+  const option = (value, text) => h("option", { value, text });
+  let [runs, touched] = [[], false];
+
+  /** Another gait may be shown by now: the one that was shown first stays to be chosen. */
+  function fill(wanted) {
+    const now = store.state.view;
+    const gaits = [...new Map([view, now].filter(Boolean).map((one) => [one.id, one.document.name]))];
+    select.replaceChildren(
+      ...gaits.map(([id, name]) => option(`gait:${id}`, `${name}, as planned now`)),
+      option("", "no plan"),
+      ...runs.map((run) =>
+        option(`run:${run.id}`, `run of ${run.gait_name}, ${clockTime(run.started)}, ${run.by}`),
+      ),
+    );
+    if ([...select.options].some(({ value }) => value === wanted)) select.value = wanted;
+  }
+
+  const wanted = kept.run ? `run:${kept.run}` : kept.gait ? `gait:${kept.gait}` : undefined;
+  fill(wanted);
+  attempt(async () => {
+    ({ runs } = await trialApi.runs());
+    fill(wanted && !touched ? wanted : select.value);
+  })();
+  select.addEventListener("change", () => {
+    touched = true;
+  });
+  for (const kind of ["pointerdown", "focus"]) select.addEventListener(kind, () => fill(select.value));
+  return select;
+}
+
 /**
  * The fields of every trial: the wanted distance, the iterations, and the plan that it is laid over.
  * @param {import("../state/store.js").Store} store
- * @param {{expected_cm?: number, iterations?: number, gait?: string, run?: string}} [kept] what was written before
+ * @param {{expected_cm?: number, iterations?: number, gait?: string, run?: string}} [kept] what was written
+ *   before
  * @returns {{labels: HTMLElement[], values: () => Record<string, any>}}
  */
 export function walkFields(store, kept = {}) {
@@ -49,39 +87,9 @@ export function walkFields(store, kept = {}) {
   iterations.input.addEventListener("input", () => {
     const step = wantedCm(view) / (view?.document?.iterations || 1);
     if (!isTyped && iterations.input.valueAsNumber > 0)
-      expected.input.value = Number((step * iterations.input.valueAsNumber).toFixed(2));
+      expected.input.value = String(Number((step * iterations.input.valueAsNumber).toFixed(2)));
   });
-  const over = h("select", {
-    "aria-label": "Compare with plan",
-    title: "The tracks are compared with this plan. The plan is saved with the trial",
-  });
-  const option = (value, text) => h("option", { value, text });
-  let [runs, touched] = [[], false];
-
-  /** Another gait may be shown by now: the one that was shown first stays to be chosen. */
-  function fill(wanted) {
-    const now = store.state.view;
-    const gaits = [...new Map([view, now].filter(Boolean).map((one) => [one.id, one.document.name]))];
-    over.replaceChildren(
-      ...gaits.map(([id, name]) => option(`gait:${id}`, `${name}, as planned now`)),
-      option("", "no plan"),
-      ...runs.map((run) =>
-        option(`run:${run.id}`, `run of ${run.gait_name}, ${clockTime(run.started)}, ${run.by}`),
-      ),
-    );
-    if ([...over.options].some(({ value }) => value === wanted)) over.value = wanted;
-  }
-
-  const wanted = kept.run ? `run:${kept.run}` : kept.gait ? `gait:${kept.gait}` : undefined;
-  fill(wanted);
-  attempt(async () => {
-    ({ runs } = await trialApi.runs());
-    fill(wanted && !touched ? wanted : over.value);
-  })();
-  over.addEventListener("change", () => {
-    touched = true;
-  });
-  for (const kind of ["pointerdown", "focus"]) over.addEventListener(kind, () => fill(over.value));
+  const over = planChoice(store, kept);
   return {
     labels: [
       expected.label,
@@ -99,9 +107,41 @@ export function walkFields(store, kept = {}) {
   };
 }
 
+/** The fields of tracks in pixels; `value` is null for tracks in centimetres. */
+function pixelFields() {
+  const optional = { required: false };
+  const perCm = number(
+    "Pixels a centimetre",
+    "Leave this field empty if the tracks are in centimetres",
+    "",
+    optional,
+  );
+  const x = number("Centre x, px", "Horizontal pixel position of the platform's centre", "", optional);
+  const y = number(
+    "Centre y, px",
+    "Vertical pixel position of the platform's centre, counted from the top",
+    "",
+    optional,
+  );
+  const summary = h("summary", { text: "The files are in pixels" });
+  return {
+    element: h("details", {}, summary, perCm.label, x.label, y.label),
+    value: () =>
+      perCm.input.value
+        ? {
+            per_cm: perCm.input.valueAsNumber,
+            origin: [x.input.valueAsNumber || 0, y.input.valueAsNumber || 0],
+          }
+        : null,
+  };
+}
+
 /**
  * Builds the form.
- * @param {{store: Record<string, any>, all: () => void, done: (added: Record<string, any>[]) => void}} page
+ * @param {Object} page
+ * @param {import("../state/store.js").Store} page.store
+ * @param {() => void} page.all
+ * @param {(added: Record<string, any>[]) => void} page.done
  */
 export function trialForm({ store, all, done }) {
   const files = h("input", {
@@ -113,33 +153,15 @@ export function trialForm({ store, all, done }) {
   });
   const rate = number(
     "Frames a second",
-    "Frame rate of the recording. The files do not contain the frame " + "rate",
+    "Frame rate of the recording. The files do not contain the frame rate",
     FRAME_RATE,
   );
-  const perCm = number("Pixels a centimetre", "Leave this field empty if the tracks are in centimetres", "", {
-    required: false,
-  });
-  const [x, y] = [
-    number("Centre x, px", "Horizontal pixel position of the platform's " + "centre", "", {
-      required: false,
-    }),
-    number(
-      "Centre y, px",
-      "Vertical pixel position of the platform's " + "centre, counted from the top",
-      "",
-      { required: false },
-    ),
-  ];
+  const inPixels = pixelFields();
   const walk = walkFields(store);
 
   const keep = attempt(async (event) => {
     event.preventDefault();
-    const pixels = perCm.input.value
-      ? {
-          per_cm: perCm.input.valueAsNumber,
-          origin: [x.input.valueAsNumber || 0, y.input.valueAsNumber || 0],
-        }
-      : null;
+    const pixels = inPixels.value();
     const added = [];
     for (const file of files.files) {
       added.push(
@@ -164,17 +186,16 @@ export function trialForm({ store, all, done }) {
     h("p", {
       class: "quiet",
       text:
-        "Choose CSV files with foot tracks. "
-        + "The columns are X_D1, Y_D1, X_D2, …, with one row for each frame. "
-        + "If a foot was not seen in a frame, its cells are empty (tracks in centimetres) or 0 (tracks in "
-        + "pixels).",
+        "Choose CSV files with foot tracks. The columns are X_D1, Y_D1, X_D2, …, with one row for each "
+        + "frame. If a foot was not seen in a frame, its cells are empty (tracks in centimetres) or 0 "
+        + "(tracks in pixels).",
     }),
     h("label", {}, h("span", { text: "Files" }), files),
     expected,
     iterations,
     rate.label,
     over,
-    h("details", {}, h("summary", { text: "The files are in pixels" }), perCm.label, x.label, y.label),
+    inPixels.element,
     h("button", { class: "primary", text: "Add trials" }),
   );
 }

@@ -55,7 +55,8 @@ function nameOf(group, groups) {
       && other.gait_name === group.gait_name
       && fixed(other.step_cm, 1) === fixed(group.step_cm, 1),
   );
-  return `${group.gait_name}, ${fixed(group.step_cm, 1)} cm${isTwin ? `, ${counted(group.iterations, "iteration")}` : ""}`;
+  const name = `${group.gait_name}, ${fixed(group.step_cm, 1)} cm`;
+  return isTwin ? `${name}, ${counted(group.iterations, "iteration")}` : name;
 }
 
 function compareRow(group, groups, band) {
@@ -141,7 +142,7 @@ function emptyPart(open) {
     );
   };
   const make = attempt(async () => {
-    // The list is drawn anew when the trial is there: only where the person has left it the example is not opened.
+    // The list is drawn anew when the trial is there. The example opens unless somebody left the list.
     const list = button.closest(".trial-part");
     allow("The studio is simulating a gait of the gait library…");
     try {
@@ -158,7 +159,9 @@ function emptyPart(open) {
     { class: "trial-empty" },
     h("p", {
       class: "teach",
-      text: "There is no trial yet. Add the foot tracks of a recording. The page then shows how far, how fast and in which direction each foot moved, and compares the movement with the plan.",
+      text:
+        // The list is drawn anew when the trial is there. Only if the person left it, the example stays closed.
+        +"in which direction each foot moved, and compares the movement with the plan.",
     }),
     h("div", { class: "buttons" }, button),
     words,
@@ -245,9 +248,18 @@ function listParts({ trials, compared, unreadable }, { open, band }) {
   ];
 }
 
+const trialOf = (row) => row.getAttribute("data-trial");
+
 /**
  * Builds the list, which follows changes of trials.
- * @param {{store: Record<string, any>, open: (id: string) => void, add: () => void, band: (group: Record<string, any>) => void, videos: () => void, cameras: () => void, learn: () => void}} acts
+ * @param {Object} acts
+ * @param {import("../state/store.js").Store} acts.store
+ * @param {(id: string) => void} acts.open
+ * @param {() => void} acts.add
+ * @param {(group: Record<string, any>) => void} acts.band
+ * @param {() => void} acts.videos
+ * @param {() => void} acts.cameras
+ * @param {() => void} acts.learn
  * @returns {Promise<{element: HTMLElement, leave: () => void}>}
  */
 export async function trialList({ store, open, add, band, videos, cameras, learn }) {
@@ -259,9 +271,9 @@ export async function trialList({ store, open, add, band, videos, cameras, learn
     const isOld = begin();
     const content = await trialApi.list();
     if (isOld()) return;
-    const held = body.contains(document.activeElement) ? document.activeElement.dataset.trial : null;
+    const held = body.contains(document.activeElement) ? trialOf(document.activeElement) : null;
     body.replaceChildren(...listParts(content, { open, band }));
-    if (held) body.querySelector(`[data-trial="${held}"]`)?.focus();
+    if (held) [...body.querySelectorAll("button")].find((one) => trialOf(one) === held)?.focus();
   }
 
   await fill();

@@ -1,4 +1,4 @@
-/** The feet of a trial from above: tracked, simulated and planned over each other, and what the lines mean. */
+/** The feet of a trial from above: tracked, simulated and planned in one plot, and what the lines mean. */
 
 import { h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -93,11 +93,9 @@ export function pathPlot(sources) {
     svg("circle", { class: "begin", "data-foot": index + 1, r: 3, cx: toX(x[0]), cy: toY(y[0]) }),
     svg("circle", { class: "end", "data-foot": index + 1, r: 3, cx: toX(x.at(-1)), cy: toY(y.at(-1)) }),
   ]);
+  const at = (xs, ys, index) => `${fixed(xs.at(index), 1)}, ${fixed(ys.at(index), 1)}`;
   const text = feet
-    .map(
-      ({ x, y }, index) =>
-        `foot ${index + 1} from ${fixed(x[0], 1)}, ${fixed(y[0], 1)} to ${fixed(x.at(-1), 1)}, ${fixed(y.at(-1), 1)} cm`,
-    )
+    .map(({ x, y }, index) => `foot ${index + 1} from ${at(x, y, 0)} to ${at(x, y, -1)} cm`)
     .join("; ");
   return h(
     "figure",

@@ -1,4 +1,4 @@
-/** Keeps a shown trial in step with the server: sends changes one at a time, and takes changes made elsewhere. */
+/** Keeps a shown trial in step with the server: sends one change at a time, and takes others' changes. */
 
 import { announce, report, toast } from "../lib/toasts.js";
 import { CONFLICT } from "../api/gaits.js";
@@ -9,11 +9,14 @@ import { trialApi } from "../api/trials.js";
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} first as the server sent it
  * @param {(trial: Record<string, any>) => void} onChange gets each later state
- * @returns {{change: (changes: Record<string, any>, done?: string) => Promise<boolean>, leave: () => void}} `change` resolves to whether it was kept
+ * @returns {{change: (changes: Record<string, any>, done?: string) => Promise<boolean>, leave: () => void}}
+ *   `change` resolves to whether it was kept
  */
 export function followTrial(store, first, onChange) {
   const { id } = first;
-  let [now, last, isClosed] = [first, Promise.resolve(), false];
+  let [now, isClosed] = [first, false];
+  /** @type {Promise<any>} */
+  let last = Promise.resolve();
 
   function take(trial) {
     if (isClosed || trial.revision < now.revision) return;
@@ -26,7 +29,8 @@ export function followTrial(store, first, onChange) {
     take(await trialApi.read(id));
     const words = now.deleted
       ? error.message
-      : `Somebody changed the trial “${now.name}” on another page. You now see the new version. Make your last change again.`;
+      : `Somebody changed the trial “${now.name}” on another page. You now see the new version. `
+        + "Make your last change again.";
     toast(words, { tone: "bad", of: "studio" });
   }
 

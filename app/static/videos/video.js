@@ -1,4 +1,4 @@
-/** Trials from a video: the file is sent, a camera setup chosen or made, the feet tracked; it ends in the open trial. */
+/** Trials from a video: send the file, choose or make a camera setup, track the feet, and open the trial. */
 
 import { h } from "../lib/dom.js";
 import { oneTabStop } from "../lib/tab_stop.js";
@@ -11,11 +11,12 @@ const UPLOAD_HELP =
   "Choose a video that shows the robot from below, through a glass platform. "
   + "The studio finds the four coloured feet in every frame.";
 const NONE_YET =
-  "There is no video yet. " + "The studio stores your videos and the camera recordings in its data folder.";
+  "There is no video yet. The studio stores your videos and the camera recordings in its data folder.";
 
 /**
  * Opens the videos in the trials' panel.
- * @param {Record<string, any>} page `store`, `show(content, onLeave)`, `begin()` tells later whether something else was asked for, `all` shows the list of trials, `one` a trial
+ * @param {Record<string, any>} page `store`, `show(content, onLeave)`, `begin()` tells later whether
+ *   something else was asked for, `all` shows the list of trials, `one` a trial
  */
 export const openVideos = attempt(async (page) => {
   const again = () => openVideos(page);

@@ -1,4 +1,4 @@
-/** One video in the panel, with its picture: choose or make a camera setup, then track the feet into a trial. */
+/** One video in the panel, with its picture: choose or make a camera setup, then track the feet. */
 
 import { api } from "../api/gaits.js";
 import { setupApi, videoApi, videoSource } from "../api/videos.js";
@@ -20,7 +20,7 @@ const SETUP_HELP =
 function setupChoice({ setups, chosen, changed, edit, make }) {
   const select = h(
     "select",
-    { "aria-label": "Camera setup", title: "Choose the setup of the camera " + "that recorded this video" },
+    { "aria-label": "Camera setup", title: "Choose the setup of the camera that recorded this video" },
     ...setups.map(({ id, setup }) => h("option", { value: id, text: setup.name })),
     setups.length ? null : h("option", { value: "", text: "none yet" }),
   );
@@ -71,11 +71,81 @@ function removeButton(video, back) {
 }
 
 /**
+ * Ways to change a setup and to make one, from the picture that is shown; `again` gets the setup to come back
+ * with.
+ */
+function setupWays(page, video, stage, again) {
+  const edit = (answer) =>
+    openSetup(page, {
+      answer,
+      source: stage.source,
+      frame: stage.frame,
+      back: { text: `Back to ${video.name}`, act: () => again(answer.id) },
+    });
+  const make = attempt(async () => {
+    const isOld = page.begin();
+    const answer = await newSetup();
+    if (!isOld()) edit(answer);
+  });
+  return { edit, make };
+}
+
+/**
+ * The button that tracks the feet with a setup, and the progress; `allow` says anew whether it can be
+ * pressed.
+ */
+function trackPart(page, video, { setup, start }) {
+  const button = h("button", { class: "primary", text: "Track the feet" });
+  let tracking = false;
+
+  function allow() {
+    const one = setup();
+    const lack = !one ? "Choose or make a camera setup first." : one.ready ? null : setupText(one);
+    const why = tracking ? "The studio is already tracking the feet in this video." : lack;
+    setAllowed(button, why, "Find the four feet in every frame and make a trial");
+  }
+
+  const progress = trackingPart(page.store, video.id, {
+    done: page.one,
+    changed: (isOn) => {
+      tracking = isOn;
+      allow();
+    },
+  });
+  onPress(button, start, (why) => toast(why, { of: "studio" }));
+  return { elements: [progress, button], allow };
+}
+
+/** What is known of a video, and the ways to its trials. */
+function videoParts(video, open) {
+  return [
+    h("div", { class: "run-line run-title" }, h("b", { text: video.name })),
+    h("p", { class: "quiet", text: videoFacts(video) }),
+    video.sentence ? h("p", { class: "why", data: { toneText: "caution" }, text: video.sentence }) : null,
+    ...video.trials.map(({ id, name }) =>
+      h("button", {
+        type: "button",
+        class: "link",
+        text: video.trials.length > 1 ? `Open its trial “${name}”` : "Open its trial",
+        title: name,
+        on: { click: () => open(id) },
+      }),
+    ),
+  ];
+}
+
+function fileLine(video, back) {
+  const href = `/api/videos/${encodeURIComponent(video.id)}/file`;
+  const link = h("a", { href, download: "", text: "Download the file" });
+  return h("div", { class: "run-files" }, link, removeButton(video, back));
+}
+
+/**
  * Opens a video in the panel.
  * @param {Record<string, any>} page of the trials' panel: `store`, `show`, `one` opens a trial
- * @param {Record<string, any>} video
- * @param {{back: () => void, chosen?: string, frame?: number, kept?: Record<string, any>}} ways `chosen` is the setup that was chosen before,
- *   `kept` what was written in the form
+ * @param {import("./video_rows.js").Video} video
+ * @param {{back: () => void, chosen?: string, frame?: number, kept?: Record<string, any>}} ways `chosen` is
+ *   the setup that was chosen before, `kept` what was written in the form
  */
 export async function openVideo(page, video, { back, chosen = "", frame = 0, kept = {} }) {
   const isOld = page.begin();
@@ -89,85 +159,40 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
     value: kept.name ?? video.name.replace(/\.\w+$/, ""),
   });
   const walk = walkFields(page.store, { ...kept, run: kept.run ?? video.run });
-  const track = h("button", { class: "primary", text: "Track the feet" });
   const words = () => ({ name: name.value.trim(), ...walk.values() });
-  let tracking = false;
-
-  const again = (setup) => () =>
-    openVideo(page, video, { back, chosen: setup, frame: stage.frame, kept: words() });
-  const edit = (answer) =>
-    openSetup(page, {
-      answer,
-      source: videoSource(video),
-      frame: stage.frame,
-      back: { text: `Back to ${video.name}`, act: again(answer.id) },
-    });
-  const make = attempt(async () => {
-    const older = page.begin();
-    const answer = await newSetup();
-    if (!older()) edit(answer);
+  const again = (setup) => openVideo(page, video, { back, chosen: setup, frame: stage.frame, kept: words() });
+  const choice = setupChoice({
+    setups,
+    chosen,
+    ...setupWays(page, video, stage, again),
+    changed: () => tracking.allow(),
   });
-  const choice = setupChoice({ setups, chosen, edit, make, changed: allow });
-
-  function allow() {
-    const setup = choice.now();
-    const lack = !setup ? "Choose or make a camera setup first." : setup.ready ? null : setupText(setup);
-    const why = tracking ? "The studio is already tracking the feet in this video." : lack;
-    setAllowed(track, why, "Find the four feet in every frame and make a trial");
-  }
-
-  const begin = attempt(async () => {
-    await videoApi.track(video.id, { setup: choice.now().id, note: "", gait: "", run: "", ...words() });
-  });
-  const progress = trackingPart(page.store, video.id, {
-    done: page.one,
-    changed: (isOn) => {
-      tracking = isOn;
-      allow();
+  const begin = attempt(() =>
+    videoApi.track(video.id, { setup: choice.now().id, note: "", gait: "", run: "", ...words() }),
+  );
+  const tracking = trackPart(page, video, {
+    setup: choice.now,
+    start: () => {
+      if (form.reportValidity()) begin();
     },
   });
   const form = h(
     "form",
     { class: "trial-form", on: { submit: (event) => event.preventDefault() } },
     h("button", { type: "button", class: "link", text: "All videos", on: { click: back } }),
-    h("div", { class: "run-line run-title" }, h("b", { text: video.name })),
-    h("p", { class: "quiet", text: videoFacts(video) }),
-    video.sentence ? h("p", { class: "why", data: { toneText: "caution" }, text: video.sentence }) : null,
-    ...video.trials.map(({ id, name: of }) =>
-      h("button", {
-        type: "button",
-        class: "link",
-        text: video.trials.length > 1 ? `Open its trial “${of}”` : "Open its trial",
-        title: of,
-        on: { click: () => page.one(id) },
-      }),
-    ),
+    ...videoParts(video, page.one),
     choice.element,
     h("label", {}, h("span", { text: "Trial name" }), name),
     ...walk.labels,
-    progress,
-    track,
-    h(
-      "div",
-      { class: "run-files" },
-      h("a", {
-        href: `/api/videos/${encodeURIComponent(video.id)}/file`,
-        download: "",
-        text: "Download the file",
-      }),
-      removeButton(video, back),
-    ),
-  );
-  onPress(
-    track,
-    () => {
-      if (form.reportValidity()) begin();
-    },
-    (why) => toast(why, { of: "studio" }),
+    ...tracking.elements,
+    fileLine(video, back),
   );
   page.show(form, () => stage.close());
   choice.show();
 }
+
+const progressText = ({ state, share, sentence }) =>
+  state === "running" ? `Tracking, ${fixed((share ?? 0) * 100, 0)} %` : sentence || state;
 
 /** The newest tracking of a video. */
 const jobOf = ({ jobs }, video) => jobs.find((job) => job.kind === "track" && job.video === video) ?? null;
@@ -176,8 +201,8 @@ const jobOf = ({ jobs }, video) => jobs.find((job) => job.kind === "track" && jo
  * Builds the progress of a video's tracking; hidden while there was none.
  * @param {import("../state/store.js").Store} store
  * @param {string} video
- * @param {{done: (trial: string) => void, changed: (isOn: boolean) => void}} acts `done` is called once, for a tracking that was
- *   begun or was under way here
+ * @param {{done: (trial: string) => void, changed: (isOn: boolean) => void}} acts `done` is called once, for
+ *   a tracking that was begun or was under way here
  * @returns {HTMLElement}
  */
 function trackingPart(store, video, { done, changed }) {
@@ -204,12 +229,7 @@ function trackingPart(store, video, { done, changed }) {
       element.hidden = !on && !ended && job.state !== "failed";
       [progress.hidden, cancel.hidden] = [!on, !on];
       bar.style.transform = `scaleX(${job.share ?? 0})`;
-      setText(
-        words,
-        job.state === "running"
-          ? `Tracking, ${fixed((job.share ?? 0) * 100, 0)} %`
-          : job.sentence || job.state,
-      );
+      setText(words, progressText(job));
       changed(on);
       if (!ended) return;
       followed = null;

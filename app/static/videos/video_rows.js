@@ -7,6 +7,25 @@ import { report, toast } from "../lib/toasts.js";
 import { videoApi } from "../api/videos.js";
 import "../pictures/picture_style.js";
 
+/**
+ * A kept video as the server tells it.
+ * @typedef {Object} Video
+ * @property {string} id
+ * @property {string} name
+ * @property {string} kind
+ * @property {string} state
+ * @property {string} sentence
+ * @property {string} camera
+ * @property {string} run
+ * @property {string} made
+ * @property {number[]} size px
+ * @property {number} rate
+ * @property {number} frames
+ * @property {number} seconds
+ * @property {number} bytes
+ * @property {{id: string, name: string}[]} trials
+ */
+
 /** Size, rate and length of a video. */
 export const videoFacts = ({ size, rate, seconds, bytes }) =>
   `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${durationText(seconds)} · ${sizeText(bytes)}`;
@@ -56,6 +75,38 @@ export function videoRow(video, { open, trial }) {
   );
 }
 
+/** How much of a file is sent, with Cancel; hidden while none is. */
+function uploadProgress(cancel) {
+  const bar = h("i");
+  const words = h("p", { class: "quiet number", role: "status" });
+  const element = h(
+    "div",
+    { class: "video-going", hidden: true },
+    h("div", { class: "progress" }, bar),
+    words,
+    h("button", { type: "button", text: "Cancel", "aria-label": "Cancel upload", on: { click: cancel } }),
+  );
+  return {
+    element,
+    show(share, size) {
+      bar.style.transform = `scaleX(${share})`;
+      setText(
+        words,
+        share < 1
+          ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent`
+          : "The upload is complete. The studio is reading the video…",
+      );
+    },
+  };
+}
+
+const tellAgain = (file, { name, made }) =>
+  toast(
+    `The studio already has “${file.name}”. `
+      + `The file has the same content as the video “${name}”, sent ${clockTime(made)}.`,
+    { of: "studio" },
+  );
+
 /** A field for a file, which is sent when it is chosen, with its progress and Cancel. */
 function buildUpload() {
   const file = h("input", {
@@ -63,60 +114,35 @@ function buildUpload() {
     accept: "video/*,.avi,.mkv,.mov,.mp4",
     "aria-label": "Video file",
   });
-  const bar = h("i");
-  const words = h("p", { class: "quiet number", role: "status" });
-  const cancel = h("button", { type: "button", text: "Cancel", "aria-label": "Cancel upload" });
-  const going = h(
-    "div",
-    { class: "video-going", hidden: true },
-    h("div", { class: "progress" }, bar),
-    words,
-    cancel,
-  );
+  const progress = uploadProgress(() => ending?.abort());
   const field = {
     element: h(
       "div",
       { class: "video-upload" },
       h("label", {}, h("span", { text: "Video file" }), file),
-      going,
+      progress.element,
     ),
+    /** @type {(video: Video) => void} */
     done: () => {},
   };
   let ending = null;
-
-  function progress(share, size) {
-    bar.style.transform = `scaleX(${share})`;
-    setText(
-      words,
-      share < 1
-        ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent`
-        : "The upload is complete. The studio is reading the video…",
-    );
-  }
 
   async function send() {
     const [chosen] = file.files;
     if (!chosen) return;
     ending = new AbortController();
-    [going.hidden, file.disabled] = [false, true];
-    progress(0, chosen.size);
+    [progress.element.hidden, file.disabled] = [false, true];
+    const show = (share) => progress.show(share, chosen.size);
+    show(0);
     let video = null;
     try {
-      video = await videoApi.upload(chosen, {
-        signal: ending.signal,
-        progress: (share) => progress(share, chosen.size),
-      });
+      video = await videoApi.upload(chosen, { signal: ending.signal, progress: show });
     } catch (error) {
       report(error);
     }
     ending = null;
-    [going.hidden, file.disabled, file.value] = [true, false, ""];
-    if (video?.again)
-      toast(
-        `The studio already has “${chosen.name}”. `
-          + `The file has the same content as the video “${video.name}”, sent ${clockTime(video.made)}.`,
-        { of: "studio" },
-      );
+    [progress.element.hidden, file.disabled, file.value] = [true, false, ""];
+    if (video?.again) tellAgain(chosen, video);
     if (video && field.element.isConnected) field.done(video);
     else if (video) {
       const act = () => field.done(video);
@@ -125,15 +151,14 @@ function buildUpload() {
   }
 
   file.addEventListener("change", send);
-  cancel.addEventListener("click", () => ending?.abort());
   return field;
 }
 
 let upload = null;
 
 /**
- * The field for a video; a file goes on being sent where its panel is left, and is there again when that is opened.
- * @param {(video: Record<string, any>) => void} done
+ * The field for a video. A file goes on being sent where its panel is left, and is there when that is opened.
+ * @param {(video: Video) => void} done
  * @returns {HTMLElement}
  */
 export function uploadField(done) {

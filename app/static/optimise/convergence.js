@@ -1,4 +1,4 @@
-/** The convergence curve: objective and primal violation over iterations, in log scale; stays after the job. */
+/** The convergence curve: objective and primal violation over iterations, log scale; stays after the job. */
 
 import { h, setText, svg } from "../lib/dom.js";
 import { compact, seconds } from "../lib/format.js";
@@ -105,17 +105,14 @@ function shownPoint(progress, job, iterate) {
     : progress.at(-1);
 }
 
-/** Appends the curve to a section and keeps it current. */
-export function mountConvergence(store, section) {
-  const state = h("span");
-  const frame = h("div", { role: "img" });
-  const last = { objective: h("span"), primal: h("span") };
-  const key = h(
+/** What the two curves are, each with its last value. */
+function curveKey(last) {
+  return h(
     "div",
     { class: "curve-key" },
     h(
       "span",
-      { title: "Value of the cost that the optimiser minimises. " + "You choose the cost under More" },
+      { title: "Value of the cost that the optimiser minimises. You choose the cost under More" },
       h("i"),
       "objective ",
       last.objective,
@@ -133,14 +130,20 @@ export function mountConvergence(store, section) {
       last.primal,
     ),
   );
+}
+
+/** Appends the curve to a section and keeps it current. */
+export function mountConvergence(store, section) {
+  const state = h("span");
+  const frame = h("div", { role: "img" });
+  const last = { objective: h("span"), primal: h("span") };
+  const key = curveKey(last);
   const line = h("p", { class: "why" });
   const plot = h("div", { class: "curve" }, frame, key);
   section.append(
     h(
       "h3",
-      {
-        title: "Objective and violation at each iteration of the optimiser during the " + "last optimisation",
-      },
+      { title: "Objective and violation at each iteration of the optimiser during the last optimisation" },
       "Convergence",
       state,
     ),

@@ -25,8 +25,7 @@ const FEW =
 const USE =
   "Replaces the drawn gait with the gait in column “For the robot's clock”. "
   + "Undo restores the drawn gait";
-const NEW =
-  "Saves the gait in column “For the robot's clock” as a new gait. " + "The drawn gait stays unchanged";
+const NEW = "Saves the gait in column “For the robot's clock” as a new gait. The drawn gait stays unchanged";
 const ABOUT =
   "with a gait for the robot's clock: a gait that is timed for the robot's firmware. "
   + "Both gaits have the same foot order and step. "
@@ -99,80 +98,33 @@ export const fasterButton = (store, edits, show) =>
 /** The figure that says how fast a gait is, as both sides name it. */
 const rateOf = (document) => (isOnTheSpot(document) ? "turn_rate" : "speed");
 
-/** The figures of both gaits as rows under two heads; a row has a name, a unit, and how a figure is read. */
+/** A row of both gaits' figures: `key` is that of the figure, `text` makes it words. */
+const figureRow = (name, unit, key, text) => ({ name, unit, key, text });
+
+/** The figures of both gaits as rows under two heads. */
 function groupsOf(document) {
   const onTheSpot = isOnTheSpot(document);
   const rate = rateOf(document);
   const turns = Math.abs(stepTurn(document)) > 0;
-  const degrees = (rate) => fixed(Math.abs(rate) * DEGREES, 2);
-  const pace = onTheSpot ? ["°/s", degrees] : ["mm/s", (speed) => mm(speed, 2)];
-  const whole = `Whole gait from rest to rest, ${counted(document.iterations, "iteration")}`;
-  const of = (name, unit, read, text) => ({ name, unit, read, text });
+  const unit = onTheSpot ? "°/s" : "mm/s";
+  const pace = (value) => (onTheSpot ? fixed(Math.abs(value) * DEGREES, 2) : mm(value, 2));
   const middle = [
-    of("Speed", pace[0], (side) => side[`cycle_${rate}`], pace[1]),
-    of(
-      "Time",
-      "s",
-      (side) => side.cycle_seconds,
-      (value) => fixed(value),
-    ),
-    of(
-      "Moves",
-      "",
-      (side) => side.cycle_moves,
-      (value) => fixed(value, Number.isInteger(value) ? 0 : 1),
-    ),
+    figureRow("Speed", unit, `cycle_${rate}`, pace),
+    figureRow("Time", "s", "cycle_seconds", (value) => fixed(value)),
+    figureRow("Moves", "", "cycle_moves", (value) => fixed(value, Number.isInteger(value) ? 0 : 1)),
   ];
   const all = [
-    of("Speed", pace[0], (side) => side[rate], pace[1]),
-    of(
-      "Time",
-      "s",
-      (side) => side.seconds,
-      (value) => fixed(value),
-    ),
-    of(
-      "Moves",
-      "",
-      (side) => side.moves,
-      (value) => fixed(value, 0),
-    ),
-    ...(onTheSpot
-      ? []
-      : [
-          of(
-            "Travel",
-            "mm",
-            (side) => side.distance,
-            (value) => mm(value),
-          ),
-        ]),
-    ...(turns
-      ? [
-          of(
-            "Turn",
-            "°",
-            (side) => side.turn,
-            (value) => fixed(value * DEGREES),
-          ),
-        ]
-      : []),
-    of(
-      "Least margin",
-      "mm",
-      (side) => side.margin,
-      (value) => mm(value),
-    ),
-    of(
-      "Stop acts within",
-      "s",
-      (side) => side.stop_seconds,
-      (value) => fixed(value, 2),
-    ),
+    figureRow("Speed", unit, rate, pace),
+    figureRow("Time", "s", "seconds", (value) => fixed(value)),
+    figureRow("Moves", "", "moves", (value) => fixed(value, 0)),
+    ...(onTheSpot ? [] : [figureRow("Travel", "mm", "distance", (value) => mm(value))]),
+    ...(turns ? [figureRow("Turn", "°", "turn", (value) => fixed(value * DEGREES))] : []),
+    figureRow("Least margin", "mm", "margin", (value) => mm(value)),
+    figureRow("Stop acts within", "s", "stop_seconds", (value) => fixed(value, 2)),
   ];
   return [
     { head: "One iteration in mid-walk", rows: middle },
-    { head: whole, rows: all },
+    { head: `Whole gait from rest to rest, ${counted(document.iterations, "iteration")}`, rows: all },
   ];
 }
 
@@ -196,7 +148,7 @@ function table(document) {
   const show = (state) =>
     cells.forEach(({ element: place, row, side }) => {
       const waits = side === "faster" && state.state === "running";
-      const value = state[side] ? row.read(state[side]) : null;
+      const value = state[side] ? state[side][row.key] : null;
       setText(place, waits ? "…" : value === null ? "–" : row.text(value));
     });
   return { element, show };

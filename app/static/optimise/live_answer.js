@@ -91,9 +91,7 @@ function infeasibleParts(plan, goTo) {
   return [sentence, ...(lacks.length ? missingMotionList(lacks, plan, goTo) : [])];
 }
 
-/**
- * What the card says of a state: its title, what its sentences are about, and what makes them; null where nothing is wrong.
- */
+/** What the card says of a state: its title, what it is about, and its parts; null where nothing is wrong. */
 function verdictOf(state, goTo) {
   const plan = ownPlan(state);
   const why = plan?.poses?.explanation ?? [];
@@ -130,7 +128,7 @@ function worksBelow({ gesture }, card) {
   return (hasFocus || (gesture && panel.matches(":hover"))) && !card.matches(":hover");
 }
 
-/** The card: what is wrong, where, and what would help. It stands first in the inspector; its title stays in sight. */
+/** The card: what is wrong, where, and what would help. It stands first, and its title stays in sight. */
 export function liveAnswer(store, edits, goTo) {
   const tryout = tryouts(store);
   const use = (document, label) => {

@@ -1,4 +1,4 @@
-/** The notes of the gait: kept, as an edit, when the field is left; what is refused stays, with the sentence under it. */
+/** The notes of the gait: kept as an edit when the field is left; a refused text stays, with the reason. */
 
 import { h } from "../lib/dom.js";
 import { historyAction } from "../state/fields.js";
@@ -64,7 +64,7 @@ export function notesField(store, edits) {
     "label",
     {
       class: "field notes-field",
-      title: "Your own text about this gait. " + "The notes do not change the motion",
+      title: "Your own text about this gait. The notes do not change the motion",
     },
     h("span", { class: "name", text: "Notes" }),
     area,

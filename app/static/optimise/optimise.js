@@ -1,4 +1,4 @@
-/** The Optimise section: the live tier's answer for the shown gait, the options, and the exact tier's button. */
+/** The section Optimise: the live tier's answer for the shown gait, options, and the exact tier's button. */
 
 import { api } from "../api/gaits.js";
 import { byId, h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.js";
@@ -26,7 +26,7 @@ const POSES =
 const nameOf = (element) => element.querySelector("[aria-label]").getAttribute("aria-label");
 
 const TIERS =
-  "The plan is updated after each edit. Optimise also improves the footholds and the body " + "height.";
+  "The plan is updated after each edit. Optimise also improves the footholds and the body height.";
 
 function exactButton(store) {
   const button = h("button", { class: "wide", text: "Optimise" });
@@ -47,7 +47,7 @@ function exactButton(store) {
       const why = !state.view
         ? "No gait is selected."
         : busy
-          ? "This gait is being optimised. " + "Cancel the job, or wait until the job ends."
+          ? "This gait is being optimised. Cancel the job, or wait until the job ends."
           : null;
       setAllowed(
         button,
@@ -59,6 +59,39 @@ function exactButton(store) {
     },
   );
   return button;
+}
+
+/** Shows the fields that a gait has with its values, and why a value was refused. */
+function followDocument(store, fields, changed, error) {
+  store.watch(
+    ({ view, pending, gesture, formError }) => [view, pending, gesture, formError],
+    (state) => {
+      const document = shownDocument(state);
+      if (!document) return;
+      for (const field of fields) {
+        field.element.hidden = !hasField(document, nameOf(field.element));
+        if (!field.element.hidden) field.show(document);
+      }
+      changed.textContent = moreInShort(document);
+      error.hidden = !state.formError;
+      error.textContent = state.formError ?? "";
+    },
+  );
+}
+
+function followAnswers(store, advice, answer, timing) {
+  store.watch(
+    (state) => [ownPlan(state), state.remedies, fallOf(state)],
+    (state) => advice.show(state),
+  );
+  store.watch(
+    ({ jobs, shownJob, selected }) => [jobs, shownJob, selected],
+    (state) => answer.show(state),
+  );
+  store.watch(
+    ({ jobs, selected, view }) => [jobs, selected, view?.document],
+    (state) => timing.show(state),
+  );
 }
 
 /**
@@ -111,37 +144,13 @@ export function mountOptimise(store, edits, goTo) {
   mountConvergence(store, section);
   const iterates = mountIterates(store, section);
 
-  store.watch(
-    ({ view, pending, gesture, formError }) => [view, pending, gesture, formError],
-    (state) => {
-      const document = shownDocument(state);
-      if (!document) return;
-      for (const field of fields) {
-        field.element.hidden = !hasField(document, nameOf(field.element));
-        if (!field.element.hidden) field.show(document);
-      }
-      changed.textContent = moreInShort(document);
-      error.hidden = !state.formError;
-      error.textContent = state.formError ?? "";
-    },
-  );
+  followDocument(store, fields, changed, error);
   // A refusal is of the document that was edited; another one, or a later version, is not concerned.
   store.watch(
     ({ selected, view }) => [selected, view?.revision],
     () => store.set({ formError: null }),
   );
-  store.watch(
-    (state) => [ownPlan(state), state.remedies, fallOf(state)],
-    (state) => advice.show(state),
-  );
-  store.watch(
-    ({ jobs, shownJob, selected }) => [jobs, shownJob, selected],
-    (state) => answer.show(state),
-  );
-  store.watch(
-    ({ jobs, selected, view }) => [jobs, selected, view?.document],
-    (state) => timing.show(state),
-  );
+  followAnswers(store, advice, answer, timing);
   return { cancel: () => fields.some((field) => field.cancel?.()) || iterates.leave() };
 }
 
@@ -193,7 +202,7 @@ const QUIET = { text: "", title: null, tone: null };
 function ofFile({ file, form, assumed }) {
   const text =
     form === "waypoints"
-      ? `This motion was read from the waypoints in ${file}. ` + `Optimise replaces the motion.`
+      ? `This motion was read from the waypoints in ${file}. Optimise replaces the motion.`
       : `This motion was recorded in ${file}. Optimise replaces the motion.`;
   return { text, title: assumed.join("\n") || null, tone: null };
 }
@@ -219,7 +228,7 @@ function ofResult(provenance, source, isEdited) {
   if (isHere) return { text: `Optimised ${when} in ${fixed(seconds * 1000, 0)} ms.`, title, tone: null };
   if (source === "optimised")
     return {
-      text: `Another studio optimised this gait (${when}). ` + `This studio computed the shown motion again.`,
+      text: `Another studio optimised this gait (${when}). This studio computed the shown motion again.`,
       title,
       tone: null,
     };

@@ -12,7 +12,7 @@ function orderField(store, edits) {
   return textField(store, {
     label: "Foot order",
     name: "Foot order",
-    help: "The order in which the feet step. " + "If you change the order, the timeline is drawn again",
+    help: "The order in which the feet step. If you change the order, the timeline is drawn again",
     read: (document) => drawnOrder(document).join(" "),
     commit(text) {
       const document = edits.shown();
@@ -82,8 +82,10 @@ function phaseFields(store, edits) {
  * Builds all fields.
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} edits
- * @param {(robot: Record<string, any>, document: Record<string, any>) => void} makeNew offers a new gait for a robot with other legs
- * @returns {{robot: Record<string, any>, order: Record<string, any>, main: Record<string, any>[], more: Record<string, any>[]}} fields with `element` and `show(document)`
+ * @param {(robot: Record<string, any>, document: Record<string, any>) => void} makeNew offers a new gait for
+ *   a robot with other legs
+ * @returns {Record<string, any>} `robot`, `order`, and lists `main` and `more`: fields with `element` and
+ *   `show(document)`
  */
 export function optimiserOptions(store, edits, makeNew) {
   const number = (field) => numberField(store, edits, field);

@@ -90,13 +90,13 @@ export const SHARES = [
   {
     label: "Step x",
     name: "Step x",
-    help: "Component of the step along the x axis of the 3D " + "preview",
+    help: "Component of the step along the x axis of the 3D preview",
     ...axis(0),
   },
   {
     label: "Step y",
     name: "Step y",
-    help: "Component of the step along the y axis of the 3D " + "preview",
+    help: "Component of the step along the y axis of the 3D preview",
     ...axis(1),
   },
 ];
@@ -275,7 +275,8 @@ export const MORE_CHOICES = [
     ],
     help:
       "Forward direction of the gait. FB: the robot walks along the diagonal between x and y, and has "
-      + "feet in front and at the back. FBS: the robot walks along x, and has feet in front, at the sides and at the back. "
+      + "feet in front and at the back. "
+      + "FBS: the robot walks along x, and has feet in front, at the sides and at the back. "
       + "The orientation also changes the names of the feet and the effect of Mirror. "
       + "The step of the gait does not change",
     read: ({ orientation }) => orientation,

@@ -1,4 +1,4 @@
-/** The pinned poses of a gait for the robot's clock: how to pin one, which there are, and a way to let each go. */
+/** The pinned poses of a gait for the robot's clock: how to pin one, and a way to let each go. */
 
 import { pinWords, pinnedOf, withoutPinned } from "../document/pinned_poses.js";
 import { h, setText } from "../lib/dom.js";

@@ -64,7 +64,7 @@ function row(remedy, { use, show, end }) {
   };
 }
 
-/** Labels in the order of their rows; while the list has the pointer or the focus, no row changes its place. */
+/** Labels in the order of their rows; while the list has pointer or focus, no row changes its place. */
 function orderOf(labels, shown, isHeld) {
   if (!isHeld) return labels;
   const kept = shown.filter((label) => labels.includes(label));
@@ -79,14 +79,17 @@ function noteOf({ searching, trying, complete, list, sentence }) {
     return trying
       ? "Looking for changes that help…"
       : complete
-        ? "No change was found " + "with which the robot can walk."
+        ? "No change was found with which the robot can walk."
         : "The search ended early. Change the drawing to start a new search.";
   return "";
 }
 
 /**
  * The list with a line below it.
- * @param {{use: (document: Record<string, any>, label: string) => void, show: (document: Record<string, any>) => void, end: () => void}} acts
+ * @param {object} acts
+ * @param {(document: Record<string, any>, label: string) => void} acts.use
+ * @param {(document: Record<string, any>) => void} acts.show
+ * @param {() => void} acts.end
  */
 export function remedyList(acts) {
   const head = h(

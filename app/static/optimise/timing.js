@@ -24,17 +24,13 @@ function whyNot(state) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The studio is still saving your last edit.";
   if (view.document.poses)
-    return (
-      "The robot's firmware decides the timing of this gait. " + "Fastest timing cannot change this timing."
-    );
+    return "The robot's firmware decides the timing of this gait. Fastest timing cannot change this timing.";
   if (view.document.segment_table)
-    return (
-      "This gait is defined by its segment table. " + "To use Fastest timing, draw on the timeline first."
-    );
+    return "This gait is defined by its segment table. To use Fastest timing, draw on the timeline first.";
   if (stepTurn(view.document) !== 0) return TURNS;
   const job = timingOf(state);
   return job && jobIsOn(job)
-    ? "A search is running. Cancel the search, or wait until the " + "search ends."
+    ? "A search is running. Cancel the search, or wait until the search ends."
     : null;
 }
 
@@ -84,7 +80,7 @@ function bar(name, durations, phases, longest, document) {
   ];
 }
 
-/** Makes the gait of whole samples the shown one, and lets the exact tier solve it: the live tier may not get that far. */
+/** Shows the gait of whole samples and lets the exact tier solve it: the live tier may not get that far. */
 async function use(usable, store, edits) {
   const { selected } = store.state;
   await edits.edit(
@@ -103,10 +99,7 @@ function onRobot({ seconds, robot_seconds: after }, { plan_seconds: planned, rob
     + `${fixed(before)} → ${fixed(after)} s.`;
   return after < before
     ? [change, true]
-    : [
-        `${change} The robot stops at each waypoint, so this timing ` + `does not make the robot faster.`,
-        false,
-      ];
+    : [`${change} The robot stops at each waypoint, so this timing does not make the robot faster.`, false];
 }
 
 const NO_WHOLE =
@@ -115,7 +108,8 @@ const NO_WHOLE =
 /** What to do where the timing itself does not help. */
 const INSTEAD = {
   faster:
-    "Try “Faster on the robot”. It keeps the foot order and the step, and adapts the moves to the robot's firmware.",
+    "Try “Faster on the robot”. "
+    + "It keeps the foot order and the step, and adapts the moves to the robot's firmware.",
   fewer:
     "Fewer waypoints make the robot faster. In Check & approve, merge waypoints within 1 mm or choose "
     + "a longer stop bound.",
@@ -126,7 +120,7 @@ const insteadOf = (view) => (view.conversion_refusal ? INSTEAD.fewer : INSTEAD.f
 function withoutResult(job) {
   if (jobIsOn(job)) return "The search is running and takes some seconds.";
   return job.state === "infeasible"
-    ? `${job.sentence} Change the drawing first. ` + `The list “What would help” shows possible changes.`
+    ? `${job.sentence} Change the drawing first. The list “What would help” shows possible changes.`
     : job.sentence;
 }
 
@@ -165,7 +159,7 @@ function found({ result }, view, store, edits) {
   const label = `Use ${fixed(usable.seconds)} s`;
   const button = h("button", {
     text: label,
-    title: "Uses the phases and motor limits of this timing for " + "the gait, and starts Optimise",
+    title: "Uses the phases and motor limits of this timing for the gait, and starts Optimise",
     on: { click: attempt(() => use(usable, store, edits)) },
   });
   const rounded = `Phases are rounded to whole samples of ${fixed(usable.sample_time, 2)} s.`;

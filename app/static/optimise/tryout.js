@@ -1,4 +1,4 @@
-/** Shows what a way out leads to while it is pointed at or focused: in timeline, plots, 3D and verdict strip. */
+/** Shows what a way out leads to while it is pointed at or focused: timeline, plots, 3D and verdict strip. */
 
 import { api } from "../api/gaits.js";
 import { latestOnly } from "../lib/latest_only.js";

@@ -1,4 +1,4 @@
-/** Two runs side by side, aligned by waypoint: one plot with both, and tables up to the last waypoint that both reached. */
+/** Two runs side by side, aligned by waypoint: one plot and tables, up to the last waypoint of both. */
 
 import { h, setText } from "../lib/dom.js";
 import { counted, fixed, MOTORS } from "../lib/format.js";
@@ -10,9 +10,11 @@ import { waypointPlot } from "./waypoint_plot.js";
 const SAME_MM = 0.01;
 
 /**
- * @typedef {{id: string, state: string, reached: number|null, count: number|null, seconds: number[], move_seconds: number[],
- *   error_mm: number[], measured_mm: number[][], commanded_mm: number[][], figures: Record<string, any>}} AlignedRun
- * @typedef {{waypoints: number[], laps: number[], apart_mm: number, runs: [AlignedRun, AlignedRun]}} RunComparison
+ * @typedef {{id: string, state: string, reached: number|null, count: number|null, seconds: number[],
+ *   move_seconds: number[], error_mm: number[], measured_mm: number[][], commanded_mm: number[][],
+ *   figures: Record<string, any>}} AlignedRun
+ * @typedef {{waypoints: number[], laps: number[], apart_mm: number, runs: [AlignedRun, AlignedRun]}}
+ *   RunComparison
  */
 
 /** What of both runs can be plotted over the waypoints: a name, a unit, and the values of a run. */

@@ -142,9 +142,12 @@ function recordedPart(id, open) {
 /**
  * Builds a run's page in the panel.
  * @param {string} id
- * @param {{leave: () => void, open: (id: string) => void, standing: (run: Record<string, any>) => string, recorded: (wanted: Record<string, any>) => void}} acts `standing`
- *   says how the shown gait stands to it, `recorded` opens a trial or a video of it
- * @returns {Promise<{element: HTMLElement, follow: () => void}>} `follow` says again how the shown gait stands to it
+ * @param {object} acts
+ * @param {() => void} acts.leave
+ * @param {(id: string) => void} acts.open
+ * @param {(run: Record<string, any>) => string} acts.standing says how the shown gait stands to the run
+ * @param {(wanted: Record<string, any>) => void} acts.recorded opens a trial or a video of it
+ * @returns {Promise<{element: HTMLElement, follow: () => void}>} `follow` says again what `standing` says
  */
 export async function runDetail(id, { leave, open, standing, recorded }) {
   const [run, { runs: others }] = await Promise.all([api.keptRun(id), api.runs({ most: OTHERS })]);

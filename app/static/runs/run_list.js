@@ -74,12 +74,8 @@ function fill(select, all, options) {
 
 const plain = (values) => values.map((value) => ({ value, text: value }));
 
-/**
- * Builds the list.
- * @param {(id: string) => void} open
- * @returns {{element: HTMLElement, refresh: () => Promise<Record<string, any>[]|null>}} `refresh` resolves to the runs that are listed
- */
-export function runList(open) {
+/** The fields of the filter, with what they ask for. */
+function filterPart() {
   const [gait, state, operator] = [
     choice("Gait of the runs", "Show only the runs of the chosen gait"),
     choice("Result of the runs", "Show only the runs with the chosen result"),
@@ -89,6 +85,47 @@ export function runList(open) {
     dayField("Since", "Runs since", "Show only the runs that started on this day or later"),
     dayField("Until", "Runs until", "Show only the runs that started on this day or earlier"),
   ];
+  return {
+    element: h(
+      "div",
+      { class: "run-filter", role: "group", "aria-label": "Filter" },
+      gait,
+      state,
+      operator,
+      since.element,
+      until.element,
+    ),
+    fields: [gait, state, operator, since.input, until.input],
+    wanted: (offset) => ({
+      gait: gait.value,
+      state: state.value,
+      operator: operator.value,
+      since: since.input.value,
+      until: until.input.value,
+      offset,
+      most: PAGE,
+    }),
+    /** Offers what the studio's answer names. */
+    offer({ gaits, states, operators }) {
+      fill(
+        gait,
+        "Every gait",
+        gaits.map(({ id, name }) => ({ value: id, text: name })),
+      );
+      fill(state, "Every result", plain(states));
+      fill(operator, "Everybody", plain(operators));
+    },
+  };
+}
+
+/**
+ * Builds the list.
+ * @param {(id: string) => void} open
+ * @returns {{element: HTMLElement, refresh: () => Promise<Record<string, any>[]|null>}} `refresh` resolves to
+ *   the runs that are listed
+ */
+export function runList(open) {
+  const filter = filterPart();
   const [count, list] = [
     h("p", { class: "quiet", role: "status" }),
     h("ul", { class: "run-list", role: "list", "aria-label": "Runs" }),
@@ -98,54 +135,22 @@ export function runList(open) {
   let shown = [];
   const begin = ticket();
 
-  const wanted = (offset) => ({
-    gait: gait.value,
-    state: state.value,
-    operator: operator.value,
-    since: since.input.value,
-    until: until.input.value,
-    offset,
-    most: PAGE,
-  });
-
   const load = attempt(async (offset) => {
     const isOld = begin();
-    const answer = await api.runs(wanted(offset));
+    const answer = await api.runs(filter.wanted(offset));
     if (isOld()) return null;
     shown = offset ? [...shown, ...answer.runs] : answer.runs;
-    fill(
-      gait,
-      "Every gait",
-      answer.gaits.map(({ id, name }) => ({ value: id, text: name })),
-    );
-    fill(state, "Every result", plain(answer.states));
-    fill(operator, "Everybody", plain(answer.operators));
+    filter.offer(answer);
     list.replaceChildren(...shown.map((run) => runRow(run, open)));
     setText(count, answer.total ? counted(answer.total, "run") : noRuns(answer));
     setAttribute(more, "hidden", shown.length >= answer.total);
     return shown;
   });
 
-  for (const field of [gait, state, operator, since.input, until.input])
-    field.addEventListener("change", () => load(0));
+  for (const field of filter.fields) field.addEventListener("change", () => load(0));
   more.addEventListener("click", () => load(shown.length));
   return {
-    element: h(
-      "div",
-      { class: "run-all" },
-      h(
-        "div",
-        { class: "run-filter", role: "group", "aria-label": "Filter" },
-        gait,
-        state,
-        operator,
-        since.element,
-        until.element,
-      ),
-      count,
-      list,
-      more,
-    ),
+    element: h("div", { class: "run-all" }, filter.element, count, list, more),
     refresh: () => load(0),
   };
 }
@@ -153,4 +158,5 @@ export function runList(open) {
 const noRuns = ({ states }) =>
   states.length
     ? "No run matches the filters."
-    : "No run yet. Send an approved gait to the robot. This list then shows the run with its measured strokes.";
+    : "No run yet. Send an approved gait to the robot. "
+      + "This list then shows the run with its measured strokes.";

@@ -36,8 +36,8 @@ function standing(store, run) {
   return "The plots show the measured strokes together with the planned strokes.";
 }
 
-/** The drawer's content: all runs, or one of them. */
-function mountPanel(store) {
+/** The drawer's own elements, without what they do. */
+function drawerParts() {
   const body = h("div", { class: "runs-body" });
   const close = h(
     "button",
@@ -45,6 +45,12 @@ function mountPanel(store) {
     icon("close"),
   );
   byId("drawer-runs").append(h("header", {}, h("h2", { text: "Runs" }), close), body);
+  return { body, close };
+}
+
+/** The drawer's content: all runs, or one of them. */
+function mountPanel(store) {
+  const { body, close } = drawerParts();
   const list = runList((id) => open(id));
   const begin = ticket();
   let follow = () => {};
@@ -162,7 +168,10 @@ function isCurrent(trace, { robot, view, run: open }) {
   return trace?.id === run.id && !open && run.waypoints_hash === view?.plan?.waypoints_hash;
 }
 
-/** Keeps `trace` in the store while a run is on and until something else is looked at; a page that comes later begins where the run is then. */
+/**
+ * Keeps `trace` in the store while a run is on and until something else is looked at. A page that comes later
+ * begins where the run is then.
+ */
 export function mountTrace(store) {
   store.watch(
     ({ robot, view, run: open }) => [

@@ -43,7 +43,8 @@ function pointed(picture, reading, { places, series, unit }, placeAt) {
     (event) => {
       const box = picture.getBoundingClientRect();
       const index = placeAt(((event.clientX - box.left) / box.width) * WIDTH);
-      reading.textContent = `${places[index]}: ${series.map(({ kind, values }) => `${kind} ${fixed(values[index], 2)}`).join(", ")} ${unit}`;
+      const figures = series.map(({ kind, values }) => `${kind} ${fixed(values[index], 2)}`);
+      reading.textContent = `${places[index]}: ${figures.join(", ")} ${unit}`;
     },
     () => {
       reading.textContent = empty;
@@ -53,7 +54,8 @@ function pointed(picture, reading, { places, series, unit }, placeAt) {
 
 /**
  * Builds the plot.
- * @param {{title: string, unit: string, places: string[], series: {kind: "this"|"other", values: number[]}[]}} shown
+ * @param {{title: string, unit: string, places: string[], series: {kind: string, values: number[]}[]}} shown
+ *   `kind` is "this" or "other"
  * @returns {HTMLElement}
  */
 export function waypointPlot(shown) {

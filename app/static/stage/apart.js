@@ -51,7 +51,7 @@ function hold(box, { width, height }) {
 
 /**
  * Moves boxes inside a frame until none overlaps another or a fixed one.
- * @param {{x: number, y: number, width: number, height: number}[]} boxes given by their middles, px; changed in place
+ * @param {{x: number, y: number, width: number, height: number}[]} boxes by their middles, px; changed
  * @param {{x: number, y: number, width: number, height: number}[]} fixed the most important first
  * @param {{width: number, height: number}} frame
  */

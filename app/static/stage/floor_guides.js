@@ -1,4 +1,4 @@
-/** Guides on the floor of the 3D scene: an arrow in the walking direction with the step as text, and a bar of 10 mm. */
+/** Guides on the floor of the 3D scene: an arrow that tells way and length of a step, and a bar of 10 mm. */
 
 import { stepLength, stepTurn, worldStep } from "../document/step.js";
 import { byId, h, setText, svg } from "../lib/dom.js";
@@ -9,14 +9,14 @@ import { previewedDocument } from "../state/store.js";
 import { drawnPlan, greyOf } from "../state/worked_plan.js";
 import { firstFree, isFree } from "./apart.js";
 
-/** The arrow, m: gap between the goal's ring and its tail, length, length of the head, half widths of shaft and head. */
+/** The arrow, m: gap to the goal's ring, length, length of the head, half widths of shaft and head. */
 const ARROW = { before: 0.012, length: 0.046, head: 0.02, shaft: 0.0036, wide: 0.0105 };
 /** The arrow of a gait that turns on the spot: start beside the robot's front and span, degrees. */
 const ARC = { start: 14, span: 34, pieces: 10 };
 const BAR = 0.01;
 /**
- * Places of the bar around the circle that encloses robot and goal: distance from its middle in radii, and angles to the
- * line of sight in the order in which they are tried, degrees.
+ * Places of the bar around the circle that encloses robot and goal: distance from its middle in radii, and
+ * angles to the line of sight in the order in which they are tried, degrees.
  */
 const [BAR_OUT, BAR_ASIDE] = [1.3, [50, 65, 80, 100, 125, -60, -90]];
 /** Below this height the stage has no room for the bar, px. */
@@ -37,8 +37,8 @@ const pathOf = (points) =>
 const short = (value) => fixed(value).replace(/\.0$/, "");
 
 /**
- * The arrow's text: "Walks 19 mm a step", "Turns 15° left a step", for a sequence "Walks 50 mm in all"; "" for a gait
- * that neither walks nor turns.
+ * The arrow's text: "Walks 19 mm a step", "Turns 15° left a step", for a sequence "Walks 50 mm in all"; ""
+ * for a gait that neither walks nor turns.
  */
 export function stepText(document, isGrey) {
   const [length, turn] = [stepLength(document), stepTurn(document)];
@@ -82,8 +82,8 @@ function round({ x, y, radius, front }, turn) {
 }
 
 /**
- * Both ends of the bar, m. Its middle lies `aside` degrees to the left of the line of sight, to the right if negative. It
- * is parallel to the axis of the floor that looks more level in the picture.
+ * Both ends of the bar, m. Its middle lies `aside` degrees to the left of the line of sight, to the right if
+ * negative. It is parallel to the axis of the floor that looks more level in the picture.
  */
 function barEnds({ right, back }, { x, y, radius }, aside) {
   const angle = Math.atan2(back[1], back[0]) - radians(aside);
@@ -211,7 +211,8 @@ export class FloorGuides {
       [...seen.standing, ...this.boxes],
       seen,
     );
-    element.style.transform = `translate(${Math.round(box.x - box.width / 2)}px, ${Math.round(box.y - box.height / 2)}px)`;
+    const [left, top] = [box.x - box.width / 2, box.y - box.height / 2].map(Math.round);
+    element.style.transform = `translate(${left}px, ${top}px)`;
     this.boxes.push(box);
   }
 

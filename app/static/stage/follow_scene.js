@@ -7,7 +7,7 @@ const STANDING = ["badge", "stage-tools", "view-cube", "legend"];
 /** Below this height the stage shows only the scene and its tools, px. */
 const LEAST_HEIGHT = 170;
 
-/** Size of the stage, left edge of the scene's frame, and boxes of the fixed elements; measured again after a resize. */
+/** Sizes of stage and fixed elements, and left edge of the scene's frame; measured again after a resize. */
 function stageSizes() {
   const stage = byId("viser").parentElement;
   const sizes = { width: 0, height: 0, left: 0, standing: [], version: 0 };
@@ -34,12 +34,17 @@ function stageSizes() {
 }
 
 /**
- * Draws parts whenever the camera or the stage changes, or their own `isChanged` returns true. A part that is drawn makes
- * all later ones draw too, since they keep clear of it.
+ * What is seen: `toStage` (from [x, y, z] in m to pixels of the stage, or null), the camera's axes, the
+ * stage's size, and `taken`: the boxes of earlier parts.
+ * @typedef {Record<string, any>} Seen
+ * @typedef {{draw: (seen: Seen) => void, isChanged: (seen: Seen) => boolean, boxes?: object[]}} Part
+ */
+
+/**
+ * Draws parts whenever the camera or the stage changes, or their own `isChanged` returns true. A part that is
+ * drawn makes all later ones draw too, since they keep clear of it.
  * @param {import("../preview/preview.js").Preview} preview
- * @param {{draw: (seen: Record<string, any>) => void, isChanged: (seen: Record<string, any>) => boolean}[]} parts `seen` has
- *   `toStage` (from [x, y, z] in m to pixels of the stage, or null), the camera's axes, the stage's size, and `taken`: the
- *   boxes of earlier parts
+ * @param {Part[]} parts
  */
 export function followScene(preview, parts) {
   const sizes = stageSizes();

@@ -6,7 +6,7 @@ import { moveApart } from "./apart.js";
 
 /** With more feet than this, labels show only mark and number. */
 const MOST_PLACES = 4;
-/** Where a label begins: distance outwards from the foot's middle, m, and share of the sole's depth downwards. */
+/** Where a label begins: distance outwards from the foot's middle, m, and share of the sole's depth. */
 const [OUTWARDS, LOW] = [0.02, 0.5];
 const BESIDE_PX = 3;
 /** A measured foot above this height counts as lifted, m. */
@@ -14,7 +14,7 @@ const LIFTED = 0.001;
 /** Labels move in steps of this size, so that the label of a standing foot does not move, px. */
 const STEP_PX = 0.5;
 
-/** Boxes of a pose's handle, relative to the body's place on the floor, px: its knob, and the label beside it. */
+/** Boxes of a pose's handle, relative to the body's place on the floor, px: its knob, and its label. */
 const POSE = [
   { dx: 0, dy: 0, width: 24, height: 24 },
   { dx: 54, dy: 18, width: 88, height: 22 },
@@ -22,7 +22,13 @@ const POSE = [
 
 const UP = " ↑";
 
-/** Places on the stage of the foot and of the point beside it, on the side away from the body; null if out of sight. */
+/**
+ * Places on the stage of the foot and of a point beside it, away from the body; null if out of sight.
+ * @param {Record<string, any>} seen
+ * @param {number[]} foot place in the scene
+ * @param {number[]} body
+ * @param {number} floor its height
+ */
 function besideFoot(seen, [x, y, z], [bodyX, bodyY], floor) {
   const away = Math.hypot(x - bodyX, y - bodyY) || 1;
   const height = z + floor * LOW;

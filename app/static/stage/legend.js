@@ -41,7 +41,7 @@ function liftedText(plan, roles, time) {
  * Builds the legend.
  * @param {import("../state/store.js").Store} store
  * @param {import("../preview/playback.js").Playback} playback
- * @returns {{show: (layer: string, shown: boolean) => void}} `show` adapts the legend to a layer of the Show menu
+ * @returns {{show: (layer: string, shown: boolean) => void}} `show` follows a layer of the menu Show
  */
 export function mountLegend(store, playback) {
   const legend = byId("legend");
@@ -88,7 +88,7 @@ export function mountLegend(store, playback) {
   return {
     show(layer, shown) {
       entries[layer]?.(shown);
-      margin.hidden = area.hidden && centre.hidden;
+      margin.hidden = Boolean(area.hidden && centre.hidden);
       render();
     },
   };

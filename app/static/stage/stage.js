@@ -1,4 +1,4 @@
-/** The stage: loads each plan's poses once, follows the playhead, shows the plan's state, and mounts the parts over the scene. */
+/** The stage: loads a plan's poses once, follows the playhead, and mounts the parts over the scene. */
 
 import { CONFLICT, api } from "../api/gaits.js";
 import { byId, painted, setText } from "../lib/dom.js";
@@ -55,7 +55,7 @@ function mountOverScene(store, preview, legend) {
   fitByItself(preview, () => look(byId("camera").value));
 }
 
-/** The missing motion of the current plan, to be marked on the drawn one; empty if they differ in their samples. */
+/** The missing motion of the current plan, to be marked on the drawn one; empty if their samples differ. */
 function troubleOf(state) {
   const [own, drawn] = [shownPlan(state), drawnPlan(state)];
   return own === drawn || own?.times.length === drawn.times.length ? missingMotionOf(own) : [];

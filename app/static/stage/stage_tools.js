@@ -1,4 +1,4 @@
-/** The tools over the 3D preview: a list of views if there is no cube, Fit, and the menu of visible layers. */
+/** The tools over the 3D preview: a list of views if there is no cube, Fit, and a menu of layers. */
 
 import { api } from "../api/gaits.js";
 import { checkMenu } from "../lib/check_menu.js";
@@ -9,7 +9,10 @@ import { oneTabStop } from "../lib/tab_stop.js";
 import { shownDocument } from "../state/store.js";
 import { drawnPlan } from "../state/worked_plan.js";
 
-/** Entries of the menu: the parts of the preview and the layer over it that each shows, and whether it is on at first. */
+/**
+ * Entries of the menu: parts of the preview and layer over it that each shows, and whether it is on at first.
+ * @type {{key: string, text: string, shown: boolean, parts: string[], layer?: string, help: string}[]}
+ */
 const ENTRIES = [
   {
     key: "robot",
@@ -89,8 +92,8 @@ const ENTRIES = [
     parts: [],
     layer: "goal",
     help:
-      "Drag the goal to change the step and the turn. The goal is hidden if you look almost along the "
-      + "floor",
+      "Drag the goal to change the step and the turn. "
+      + "The goal is hidden if you look almost along the floor",
   },
   {
     key: "pose",
@@ -106,7 +109,8 @@ const ENTRIES = [
 ];
 
 const NO_PRESSURE =
-  "The centre of pressure is known only for optimised and live plans. The computation of this point needs the accelerations of the motion.";
+  "The centre of pressure is known only for optimised and live plans. "
+  + "The computation of this point needs the accelerations of the motion.";
 
 /** Fetches the reach of the drawn plan while its layer is on. */
 function followReach(store, preview, isOn) {
@@ -155,6 +159,7 @@ export function mountTools(store, preview, look, onShow) {
 
   const choice = recalled("scene", Object.fromEntries(ENTRIES.map(({ key, shown }) => [key, shown])));
   const requestReach = followReach(store, preview, () => choice.reach);
+  /** @param {typeof ENTRIES[number]} entry */
   const apply = ({ key, parts, layer }) => {
     parts.forEach((part) => preview.show(part, choice[key]));
     if (layer) byId(layer).hidden = !choice[key];

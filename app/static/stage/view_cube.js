@@ -1,4 +1,4 @@
-/** The cube at the top right of the stage: it turns with the camera, and a click on a face selects that view. */
+/** The cube at the top right of the stage: it turns with the camera; a click on a face selects that view. */
 
 import { byId, h } from "../lib/dom.js";
 import { shownDocument } from "../state/store.js";

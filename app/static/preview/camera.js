@@ -1,6 +1,6 @@
 /**
- * The camera over the scene: views by name, a distance from which the whole way is seen, and a floor that it stays above.
- * Places are m in the scene, whose z points up.
+ * The camera over the scene: views by name, a distance from which the whole way is seen, and a floor that it
+ * stays above. Places are m in the scene, whose z points up.
  */
 
 import { cameraMessages } from "./viser_client.js";
@@ -11,7 +11,7 @@ const MIDDLE = 0.048;
 const [TOP, FLOOR] = [0.128, -0.018];
 /** Half the field of view upwards (app/scene/environment.py), as a slope. */
 const SLOPE = Math.tan((16 * Math.PI) / 180);
-/** What stands over the scene, px: at its upper and lower edge, and labels beside the robot; at most this share of the stage. */
+/** What stands over the scene, px: above and below, and labels beside the robot; at most this share of it. */
 const [TAKEN, ASIDE, MOST_TAKEN] = [32, 76, 0.55];
 /** Corners of the circle that the robot fills. */
 const CORNERS = 12;
@@ -40,7 +40,7 @@ const DIRECTIONS = {
 const apart = (a, b) => Math.hypot(...a.map((value, axis) => value - b[axis]));
 
 /**
- * What is to be in view: the middle of the body's way over the plan, and how far from there the robot reaches.
+ * What is to be in view: the middle of the body's way over the plan, and how far from it the robot reaches.
  * @param {import("./viser_client.js").ViserClient} client
  * @param {{com: number[][], feet: number[][][]}|null} overlay of the plan
  * @param {string[]} nodes of the robot
@@ -54,7 +54,7 @@ export function wayOf(client, overlay, nodes, bodyName) {
     Math.max(...places.map((at) => at[axis])),
   ]);
   const flat = (at, middle) => Math.hypot(at[0] - middle[0], at[1] - middle[1]);
-  // In a scene that has just opened the nodes are not in their places yet; the plan knows where the feet stand.
+  // In a scene that has just opened the nodes are not in their places yet; the plan knows those of the feet.
   const feet = (overlay?.feet[0] ?? []).map((at) => flat(at, overlay.com[0]));
   const reaches = [...nodes.map((name) => flat(client.position(name) ?? body, body)), ...feet];
   return {
@@ -68,7 +68,7 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => a.map((value) => value / Math.hypot(...a));
 
-/** The least distance from which all that fills a circle, from the floor to the top, is seen in the free part of a stage. */
+/** The least distance from which all in a circle, from floor to top, is seen in the free part of a stage. */
 function distanceFor(direction, radius, { width, height }) {
   const back = unit(direction);
   const right = unit(cross([0, 0, 1], back));

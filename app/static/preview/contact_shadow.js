@@ -1,6 +1,6 @@
 /**
- * A soft shadow on the floor where a foot stands: discs that lie over one another and grow, all in one mesh, so that it
- * costs one part of the scene and is made anew only where another foot stands.
+ * A soft shadow on the floor where a foot stands: discs that lie over one another and grow, all in one mesh,
+ * so that it costs one part of the scene and is made anew only where another foot stands.
  */
 
 const RADII = [0.0205, 0.018, 0.0155, 0.0135];

@@ -1,8 +1,8 @@
 /**
  * Contact marks of the simulated robot: a ring under each foot that carries load, a line where a foot slid.
  *
- * They come with the simulated ghost (app/scene/simulated_ghost.py): `contacts`, a string of 0 and 1 a frame, `slips`, lines
- * on the floor, and `sole`, the sole's depth under the foot's node.
+ * They come with the simulated ghost (app/scene/simulated_ghost.py): `contacts`, a string of 0 and 1 a frame,
+ * `slips`, lines on the floor, and `sole`, the sole's depth under the foot's node.
  */
 
 import { VALUES_A_NODE } from "./poses.js";

@@ -1,4 +1,4 @@
-/** Ghosts in the 3D preview: the gait before the last edit, as saved, as measured in a run, and as simulated. */
+/** Ghosts in the 3D preview: the gait before the last edit, as saved, as measured, and as simulated. */
 
 import { api } from "../api/gaits.js";
 import { checkMenu } from "../lib/check_menu.js";
@@ -23,7 +23,9 @@ const KINDS = {
   simulated: {
     text: "As simulated",
     shown: true,
-    help: "Shows the simulated robot, which can tilt and slip. Green rings mark feet that carry load. Red lines show where a foot slid",
+    help:
+      "Shows the simulated robot, which can tilt and slip. "
+      + "Green rings mark feet that carry load. Red lines show where a foot slid",
   },
 };
 

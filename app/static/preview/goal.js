@@ -1,13 +1,13 @@
 /**
- * The goal as a handle over the 3D scene: dragged on the floor it changes the step, its knob on the ring the turn.
- * The live plan follows; letting go makes one edit.
+ * The goal as a handle over the 3D scene: dragged on the floor it changes the step, its knob on the ring the
+ * turn. The live plan follows; letting go makes one edit.
  */
 
 import { stepLength, stepTurn, withTurn, withWorldStep, worldStep } from "../document/step.js";
 import { clamp } from "../lib/clamp.js";
 import { byId, h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
-import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
+import { previewedDocument, shownPlan } from "../state/store.js";
 import { ARROWS, SNAP, floorOf, handle, movable, place, snapped } from "./handle.js";
 
 const TURN_SNAP = 1;
@@ -69,7 +69,8 @@ function draw(parts, floor, goal, document) {
   place(parts.turn, knob);
   const label = document.iterations > 1 ? `${document.iterations} × ` : "";
   const turn = stepTurn(document);
-  parts.label.textContent = `${label}${fixed(stepLength(document) * 1000)} mm${turn ? `, ${fixed(turn, 0)}°` : ""}`;
+  const length = `${label}${fixed(stepLength(document) * 1000)} mm`;
+  parts.label.textContent = turn ? `${length}, ${fixed(turn, 0)}°` : length;
   place(parts.label, end);
   return true;
 }
@@ -156,12 +157,14 @@ function build() {
     goal: handle(
       "goal-place",
       "Goal",
-      "Drag the goal on the floor to change the step. The arrow keys change the step by 0.5 mm, with Shift by 5 mm",
+      "Drag the goal on the floor to change the step. "
+        + "The arrow keys change the step by 0.5 mm, with Shift by 5 mm",
     ),
     turn: handle(
       "goal-turn",
       "Goal turn",
-      "Drag this handle around the goal to change the turn. The arrow keys change the turn by 1°, with Shift by 10°",
+      "Drag this handle around the goal to change the turn. "
+        + "The arrow keys change the turn by 1°, with Shift by 10°",
     ),
     label: h("span", { class: "goal-label" }),
   };

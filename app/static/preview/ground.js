@@ -1,4 +1,4 @@
-/** The floor as a camera sees it: one projective map between places on it and pixels, and its inverse; and places over it. */
+/** The floor as a camera sees it: a projective map between places on it and pixels; and places over it. */
 
 /** Product of two 4 × 4 matrices given by columns. */
 function product(a, b) {
@@ -15,9 +15,9 @@ function product(a, b) {
  * What a camera sees of the scene.
  * @param {number[][]} matrices projection, view and the scene's root, each 4 × 4 by columns
  * @param {{width: number, height: number}} size of the canvas, pixels
- * @returns {{toScreen: (at: number[]) => number[]|null, right: number[], up: number[], back: number[], eye: number[], key: string}}
- *   `toScreen` maps [x, y, z] in m to pixels of the canvas, null for what lies behind the camera; the camera's axes and place
- *   in the scene; `key` changes with the camera and the size
+ * @returns {{toScreen: (at: number[]) => number[]|null, right: number[], up: number[], back: number[],
+ *   eye: number[], key: string}} `toScreen` maps [x, y, z] in m to pixels of the canvas, null for what lies
+ *   behind the camera; the camera's axes and place in the scene; `key` changes with the camera and the size
  */
 export function spaceView([projection, view, root], { width, height }) {
   const inCamera = product(view, root);
@@ -44,7 +44,10 @@ export function spaceView([projection, view, root], { width, height }) {
   };
 }
 
-/** Inverse of a 3 × 3 matrix given by rows, up to its scale. */
+/**
+ * Inverse of a 3 × 3 matrix, up to its scale.
+ * @param {number[]} matrix given by rows
+ */
 function adjugate([a, b, c, d, e, f, g, h, i]) {
   return [
     e * i - f * h,
@@ -59,6 +62,10 @@ function adjugate([a, b, c, d, e, f, g, h, i]) {
   ];
 }
 
+/**
+ * @param {number[]} m projective map, 3 × 3 by rows
+ * @param {number[]} at
+ */
 function apply(m, [x, y]) {
   const w = m[6] * x + m[7] * y + m[8];
   return [(m[0] * x + m[1] * y + m[2]) / w, (m[3] * x + m[4] * y + m[5]) / w];
@@ -68,8 +75,8 @@ function apply(m, [x, y]) {
  * @param {number[][]} matrices projection, view and the scene's root, each 4 × 4 by columns
  * @param {number} height of the plane in the scene, m
  * @param {{left: number, top: number, width: number, height: number}} box of the canvas, pixels
- * @returns {{toScreen: (at: number[]) => number[]|null, toGround: (at: number[]) => number[], key: string}} `toScreen`
- *   gives null for what lies behind the camera; `key` changes with the camera
+ * @returns {{toScreen: (at: number[]) => number[]|null, toGround: (at: number[]) => number[], key: string}}
+ *   `toScreen` gives null for what lies behind the camera; `key` changes with the camera
  */
 export function groundView([projection, view, root], height, box) {
   const m = product(product(projection, view), root);
@@ -82,6 +89,7 @@ export function groundView([projection, view, root], height, box) {
     ...w,
   ];
   const back = adjugate(seen);
+  /** @param {number[]} at */
   const before = ([a, b]) => w[0] * a + w[1] * b + w[2] > 0;
   return {
     toScreen: (at) => (before(at) ? apply(seen, at) : null),

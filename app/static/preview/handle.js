@@ -27,12 +27,13 @@ export function handle(className, name, help) {
 }
 
 /**
- * Makes a handle draggable and movable by keys; every change shows the document changed, one edit is made at the end.
+ * Makes a handle draggable and movable by keys; every change is shown, one edit is made at the end.
  * @param {HTMLElement} element
  * @param {import("../state/store.js").Store} store
  * @param {Record<string, any>} edits
- * @param {{begin: Function, drag: Function, key: Function, name: Function}} way `begin(point)` gives what `drag(point, from,
- *   free)` needs, `key(event)` a change or null; changes are functions from document to document
+ * @param {{begin: Function, drag: Function, key: Function, name: Function}} way `begin(point)` gives what
+ *   `drag(point, from, free)` needs, `key(event)` a change or null; changes are functions from document to
+ *   document
  */
 export function movable(element, store, edits, way) {
   let change = null;
@@ -102,7 +103,11 @@ export function floorOf(preview) {
   };
 }
 
-/** Puts an element to a place on the stage, px. */
+/**
+ * Puts an element to a place on the stage, px.
+ * @param {HTMLElement} element
+ * @param {number[]} at
+ */
 export function place(element, [x, y]) {
   element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
 }

@@ -1,6 +1,6 @@
 /**
- * The marks round the robot as messages to the client: support polygon, centres of mass and pressure with their
- * traces, swings, footholds, what is infeasible, and the reach of the legs. Only changes are sent.
+ * The marks round the robot as messages to the client: support polygon, centres of mass and pressure with
+ * their traces, swings, footholds, what is infeasible, and the reach of the legs. Only changes are sent.
  */
 
 import { contactShadow } from "./contact_shadow.js";
@@ -205,12 +205,14 @@ export class Marks {
       .map(([name, values]) => this.#client.updateMessage(name, values));
   }
 
-  /** Whether a mark differs from what was sent last: it costs the client a new geometry or material, and most feet keep theirs. */
+  /** Whether a mark differs from what was sent last: it costs a new geometry, and most feet keep theirs. */
   #isNews(name, values) {
     const key = `${name} ${Object.keys(values)}`;
     const [before, now] = [
       this.#sent.get(key),
-      Object.values(values).flatMap((value) => (ArrayBuffer.isView(value) ? [...value] : value)),
+      Object.values(values).flatMap((value) =>
+        ArrayBuffer.isView(value) ? [.../** @type {Float32Array} */ (value)] : value,
+      ),
     ];
     this.#sent.set(key, now);
     return !before || before.length !== now.length || now.some((value, index) => value !== before[index]);
@@ -219,7 +221,7 @@ export class Marks {
 
 const POSTS = 6;
 
-/** A colour's share as light: the client takes colours of line ends for that, and shows them paler otherwise. */
+/** A colour's share as light: the client takes colours of line ends for that, else it shows them paler. */
 const asLight = (value) =>
   Math.round(255 * (value > 10 ? ((value / 255 + 0.055) / 1.055) ** 2.4 : value / 255 / 12.92));
 
@@ -259,8 +261,9 @@ function* edges(rings) {
 
 /**
  * Line pieces of every leg's reach at a sample, each in its foot's colour.
- * @param {{radii: number[][][], layers: number[], planes: number[], sole: number, azimuths: number[], radius: number, colours: number[][]}} shells
- *   radii [sample][layer][ray] and heights of layers and actuator plane over the standing feet in m, and how deep the sole is under the foot's point; `GET …/reach`
+ * @param {Record<string, any>} shells as `GET …/reach` gives it: `radii` [sample][layer][ray]; heights of
+ *   `layers` and actuator `planes` over the standing feet; how deep the `sole` is under the foot's point, m
+ * @param {number} sample
  * @returns {{points: Float32Array, colors: Uint8Array}}
  */
 function shellUpdate(shells, sample) {

@@ -1,8 +1,8 @@
 /**
  * What lies on the floor under the robot, as updates of the marks that the server put into the scene.
  *
- * Floor marks: support polygon of the current sample, coloured by its margin; traces and points of the centres of
- * mass and pressure; each foot's swings and footholds. Heights in m; `overlay.floor` is the floor's.
+ * Floor marks: support polygon of the current sample, coloured by its margin; traces and points of the
+ * centres of mass and pressure; each foot's swings and footholds. Heights in m.
  */
 
 /** Height of the floor under a robot with shoes, m. */
@@ -83,6 +83,12 @@ function marginColour(margin, caution) {
 /** Height of the floor, m. */
 export const floorOf = (overlay) => overlay?.floor ?? SHOD_FLOOR;
 
+/**
+ * @param {Record<string, any>} overlay
+ * @param {number[]} at
+ * @param {number} layer how far above the floor, in gaps
+ * @returns {number[]}
+ */
 const floorPoint = (overlay, [x, y], layer) => [x, y, floorOf(overlay) + layer * GAP];
 
 const BALANCE = new Set(["body_torque", "margin"]);
@@ -92,7 +98,7 @@ const missing = (trouble, sample) => trouble.filter(({ first, last }) => first <
 export const standing = (overlay, sample) =>
   overlay.feet[sample].filter((_, foot) => overlay.contact[sample][foot]);
 
-/** Updates that show one sample's support polygon: [node, properties] pairs; its edge is broken where balance or the motion is lacking. */
+/** [node, properties] pairs of a sample's support polygon; its edge is broken where balance is lacking. */
 export function polygonUpdates(overlay, sample, caution, trouble = [], theme = "light", isGrey = false) {
   const corners = hull(standing(overlay, sample).map(([x, y]) => [x, y]));
   const lacks = isGrey || missing(trouble, sample).some(({ family }) => BALANCE.has(family));
@@ -146,6 +152,7 @@ export function troubleUpdates(overlay, sample, trouble, theme = "light") {
 /** Line pieces of several drawings. */
 const joined = (parts) => Float32Array.from(parts.flatMap((part) => [...part]));
 
+/** @param {number[]} at */
 function cross([x, y, z], arm = 0.004) {
   return [
     ...pieces([
@@ -159,7 +166,7 @@ function cross([x, y, z], arm = 0.004) {
   ];
 }
 
-/** Where the centre of pressure is on the floor at a time, linear between samples; null where it is not known. */
+/** Where the centre of pressure is at a time, linear between samples; null where it is not known. */
 export function pressureAt(overlay, time) {
   const { cop, times } = overlay;
   if (!cop) return null;
@@ -177,6 +184,7 @@ export function pressureAt(overlay, time) {
 export function planUpdates(overlay, theme) {
   const ink = Uint8Array.from(INK[theme]);
   const trace = overlay.com.map((point) => floorPoint(overlay, point, 3));
+  /** @type {[string, Record<string, any>][]} */
   const updates = [
     [
       "/overlay/com_trace",

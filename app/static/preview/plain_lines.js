@@ -1,8 +1,8 @@
 /**
- * Lines drawn as plain triangles where there is no GPU, with the tone curve at their corners. Viser draws a line's pieces
- * as instances of one piece, and software drawing takes as long for each instance as for a whole part of the robot; and it
- * rounds ends and computes the tone curve pixel by pixel. The client lives in a window of its own, so arrays and classes
- * are made of those that its objects have.
+ * Lines drawn as plain triangles where there is no GPU, with the tone curve at their corners. Viser draws a
+ * line's pieces as instances of one piece, and software drawing takes as long for each instance as for a
+ * whole part of the robot; and it rounds ends and computes the tone curve pixel by pixel. The client lives in
+ * a window of its own, so arrays and classes are made of those that its objects have.
  */
 
 const CORNERS = `
@@ -24,8 +24,6 @@ const PIXELS = `
 
 const plainMaterials = new WeakSet();
 
-const ends = ["instanceStart", "instanceEnd"];
-const colours = ["instanceColorStart", "instanceColorEnd"];
 const parentOf = (type) => Object.getPrototypeOf(type);
 
 /** Writes both ends of each piece, six values, once for each corner of the piece. */
@@ -60,7 +58,7 @@ function repeated({ array, itemSize, constructor }, pieces) {
 }
 
 /** Both ends' attributes, which share one buffer of six values a piece, with a copy for each corner. */
-function spread(plain, { attributes }, [start, end], corners) {
+function spread(plain, { attributes }, start, end, corners) {
   const from = attributes[start];
   if (!from) return;
   const { array } = from.data;
@@ -80,8 +78,8 @@ function plainGeometry(lines) {
   const plain = new (plainType(lines.constructor))();
   plain.setAttribute("position", repeated(position, pieces));
   plain.setAttribute("uv", repeated(uv, pieces));
-  spread(plain, lines, ends, corners);
-  spread(plain, lines, colours, corners);
+  spread(plain, lines, "instanceStart", "instanceEnd", corners);
+  spread(plain, lines, "instanceColorStart", "instanceColorEnd", corners);
   plain.setIndex(
     Array.from({ length: pieces }, (_, piece) =>
       Array.from(lines.index.array, (corner) => corner + piece * corners),

@@ -1,7 +1,7 @@
 /**
- * Surfaces lit at their corners where there is no GPU: the client's own shading computes a light model and a tone curve
- * for every pixel, which takes software drawing longer than all else in the scene together. And surfaces in grey: they get
- * other colours once, so that no frame costs more.
+ * Surfaces lit at their corners where there is no GPU: the client's own shading computes a light model and a
+ * tone curve for every pixel, which takes software drawing longer than all else in the scene together. And
+ * surfaces in grey: they get other colours once, so that no frame costs more.
  */
 
 const CORNERS = `
@@ -31,7 +31,7 @@ export function drawSurfacePlainly({ isMesh, material }) {
   material.needsUpdate = true;
 }
 
-/** Leaves out the client's picture behind the scene where there is none: it runs over every pixel to draw nothing. */
+/** Leaves out the client's empty picture behind the scene: it runs over every pixel to draw nothing. */
 export function leaveOutNoPicture(part) {
   const { enabled, colorMap } = part.material?.uniforms ?? {};
   if (colorMap && enabled?.value === false) part.visible = false;

@@ -5,11 +5,11 @@
  *
  *   const playback = new Playback({ duration: 15.6, step: 0.4 });
  *   playback.addEventListener("time", (event) => preview.setTime(event.detail.time));
- *   playback.addEventListener("state", (event) => button.textContent = event.detail.playing ? "Pause" : "Play");
+ *   playback.addEventListener("state", ({ detail }) => setText(button, detail.playing ? "Pause" : "Play"));
  *
  * Properties (read only): time, duration, playing, speed, loop ([start, end] or null).
  * Methods:
- *   setPlan(duration, samples)     another plan: the playhead stays where it was, held inside the new duration; `samples`
+ *   setPlan(duration, samples)     another plan: the playhead stays, held inside the new duration; `samples`
  *                                  is the time between two of them, or the time of each
  *   play() pause() toggle()        play at the end starts over
  *   setTime(seconds)               scrubs, held inside [0, duration]; playing goes on from there
@@ -19,7 +19,7 @@
  *   setLoop([start, end] | true | false)
  *   dispose()
  * Events (CustomEvent, detail is { time, playing, speed, loop, duration, cause }):
- *   "time"   the playhead moved; cause is "clock", "scrub" or "plan". At most once a display frame while playing.
+ *   "time"   the playhead moved; cause is "clock", "scrub" or "plan". At most once a frame while playing.
  *   "state"  play, pause, end, speed, loop or plan changed.
  *   "end"    the playhead reached the end without a loop; "state" follows.
  */
@@ -47,7 +47,7 @@ export class Playback extends EventTarget {
   #cancelFrame;
 
   /**
-   * @param {Record<string, any>} options
+   * @param {object} options
    * @param {number} [options.duration] of the plan, s
    * @param {number} [options.step] between two samples, s
    * @param {() => number} [options.now] clock in ms; tests give their own

@@ -1,6 +1,6 @@
 /**
- * The body of the pose under the playhead as a handle over the 3D scene, in a gait for the robot's clock. Dragged on the
- * floor it pins the pose there; the live plan follows, and letting go makes one edit.
+ * The body of the pose under the playhead as a handle over the 3D scene, in a gait for the robot's clock.
+ * Dragged on the floor it pins the pose there; the live plan follows, and letting go makes one edit.
  */
 
 import { evenTravel, isFarthest, pinOf, pinWords, withPinned } from "../document/pinned_poses.js";
@@ -17,7 +17,11 @@ function poseAt({ times }, time) {
   return index > 0 && index < times.length - 1 ? index : null;
 }
 
-/** Where the body is from an even travel at a pose, m along and to the left. */
+/**
+ * Where the body is from an even travel at a pose, m along and to the left.
+ * @param {Record<string, any>} plan
+ * @param {number} index
+ */
 function offsetOf({ body }, index) {
   const even = evenTravel(body);
   const [x, y] = even.at(index);
@@ -27,8 +31,13 @@ function offsetOf({ body }, index) {
 const pin = (index, offset) => (document) => withPinned(document, index + 1, offset);
 
 /**
- * What dragging and keys change; `held` gives the index of the pose that is being moved.
- * @param {{edits: Record<string, any>, preview: Record<string, any>, plan: () => Record<string, any>, held: () => number|null, take: () => number|null}} parts
+ * What dragging and keys change.
+ * @param {object} parts
+ * @param {Record<string, any>} parts.edits
+ * @param {Record<string, any>} parts.preview
+ * @param {() => Record<string, any>} parts.plan
+ * @param {() => number|null} parts.held index of the pose that is being moved
+ * @param {() => number|null} parts.take takes up the pose under the playhead
  */
 function poseDrag({ edits, preview, plan, held, take }) {
   return {
@@ -66,7 +75,7 @@ function poseDrag({ edits, preview, plan, held, take }) {
   };
 }
 
-/** The pose that is being moved: the nearest one to the playhead, and the same until somebody moves the playhead. */
+/** The pose that is being moved: the nearest to the playhead, until somebody moves the playhead. */
 function poseUnderHand(store, playback, plan) {
   let index = null;
   let isOwn = false;

@@ -1,8 +1,8 @@
 /**
  * A plan's poses as they come from the server, and the pose between two frames.
  *
- * Layout (little-endian): 4-byte length of the header; JSON header, padded to a multiple of 4; frames × nodes × 7
- * float32: quaternion w x y z, then position x y z in m. app/scene/poses.py writes it.
+ * Layout (little-endian): 4-byte length of the header; JSON header, padded to a multiple of 4; frames × nodes
+ * × 7 float32: quaternion w x y z, then position x y z in m. app/scene/poses.py writes it.
  */
 
 export const VALUES_A_NODE = 7;
@@ -16,7 +16,7 @@ export class PoseTable {
     const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     if (header.format !== "footfall-poses" || header.version !== 1) {
       throw new Error(
-        `The poses have an unknown format (${header.format} ${header.version}). ` + "Reload the page.",
+        `The poses have an unknown format (${header.format} ${header.version}). Reload the page.`,
       );
     }
     const count = header.frames * header.nodes.length * VALUES_A_NODE;

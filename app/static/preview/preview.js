@@ -3,34 +3,8 @@
  *
  * All poses of a plan come once, as one binary; a moved playhead costs no message to the server.
  *
- * Methods:
- *   ready(timeoutMs = 20000)      Promise: the scene of the robot is in the client; rejects with a sentence
- *   loadPoses(source, trouble)    Poses of another robot open that robot's scene. Promise<{ robot, duration, frames, nodes }>: URL string or ArrayBuffer; the
- *                                 playhead's time stays. A newer call wins over one still under way (whose
- *                                 promise then resolves to null). May be called before the scene is ready.
- *                                 trouble: what is infeasible, marked at its time: [{ first, last, feet, family,
- *                                 rings }] with outlines of reach [knot][corner][2] m where they are known
- *   setGrey(grey)                 the robot in shades of grey: it is drawn by another plan than the gait's own
- *   setTime(seconds, inFrame)     shows the pose at that time, interpolated; cheap, call it every frame. inFrame: called while
- *                                 the page makes a frame, so that it is drawn in this one where there is no GPU
- *   setOverlay(overlay | null)    what lies on the floor; loadPoses sets it by itself where the poses carry one:
- *                                 { floor: m, times: [n] s, com: [n][3] m, cop: [n][2] m or null, feet: [n][legs][3] m, contact: [n][legs] bool,
- *                                   margins: [n] m }   null takes it away
- *   setGhost(kind, buffer | null) another version of the gait as a quiet second robot: "before", "saved", "measured", "simulated" or "jog"
- *   setTracks(tracks)             where feet were in trials, lines over the gait: list of `GET /api/trials/{id}/scene`, none takes them away
- *   show(part, visible)           part: "polygon", "com", "shadow", "cop", "traces", "footholds", "trouble", "robot", "reach"
- *   setCaution(metres)            margin below which the polygon is amber (0.003 by default; below 0 it is red)
- *   setView(name, front = 0)      "perspective", "top", "front", "left", "back", "right", so that the whole way is in view; front: the
- *                                 way that the robot looks, degrees
- *   refit()                       after another size: fits the view again; one that was moved by hand keeps what it shows
- *   view()                        what the camera sees (see `ViserClient.view`), null where it is not known
- *   ground()                      how the floor is seen now: { toScreen([x, y]), toGround([px, py]) } between m on the
- *                                 floor and pixels of the frame; null where the client's camera is unknown
- *   drawn()                       Promise: what was shown before has been handed to a frame of the client
- * Properties: time, knowsPressure, isMeasured, overlay and info (of the loaded plan or null), route ("direct", "server" or "none"), posesShown (count).
- * Events: "opening" (detail: the robot whose scene is being loaded), "ready" (its scene is there; also when it was
- *   made anew after a reconnection),
- *   "poses" (of a plan are shown from now on), "route" (detail: the new route; "server" means the slower way, through the server).
+ * Events: "opening" (detail: the robot whose scene is being loaded); "ready" (its scene is there, also after
+ * a reconnection); "poses" (those of a plan are shown from now on); "route" (detail: the new route).
  */
 
 import { Ghosts } from "./viser_ghosts.js";
@@ -76,6 +50,7 @@ export class Preview extends EventTarget {
   #serverRoute = null;
   #sharpness;
   posesShown = 0;
+  /** "direct", "server" (slower: through the server) or "none". */
   route = "none";
 
   /**
@@ -110,6 +85,7 @@ export class Preview extends EventTarget {
     return this.#time;
   }
 
+  /** Of the loaded plan, or null. */
   get info() {
     if (!this.#table) return null;
     const { robot, duration, frames, nodes } = this.#table;
@@ -136,6 +112,7 @@ export class Preview extends EventTarget {
     return this.#client;
   }
 
+  /** Resolves when the scene of the robot is in the client; rejects with a sentence. */
   ready(timeoutMs = 20000) {
     if (this.#bodyNode || this.route === "server") return Promise.resolve();
     return new Promise((resolve, reject) => {
@@ -146,6 +123,13 @@ export class Preview extends EventTarget {
     });
   }
 
+  /**
+   * Shows a plan's poses at the playhead's time, once the scene is there; those of another robot open its
+   * scene. A newer call wins over one still under way, which then resolves to null.
+   * @param {string|ArrayBuffer} source URL, or the poses
+   * @param {Record<string, any>[]} [trouble] what is infeasible, marked at its time: { first, last, feet,
+   *   family, rings }, with outlines of reach [knot][corner][2] m where they are known
+   */
   async loadPoses(source, trouble = []) {
     this.#load += 1;
     const turn = this.#load;
@@ -166,6 +150,7 @@ export class Preview extends EventTarget {
     this.#request();
   }
 
+  /** The robot in shades of grey: it is drawn by another plan than the gait's own. */
   setGrey(grey) {
     if (grey === this.#isGrey) return;
     this.#isGrey = grey;
@@ -174,6 +159,7 @@ export class Preview extends EventTarget {
     this.#request();
   }
 
+  /** A version of the gait as a quiet second robot: "before", "saved", "measured", "simulated", "jog". */
   setGhost(kind, buffer) {
     this.#ghosts.set(kind, buffer);
     this.#request();
@@ -186,6 +172,7 @@ export class Preview extends EventTarget {
     this.#request();
   }
 
+  /** Lines where feet were in trials: a list of `GET /api/trials/{id}/scene`; none takes them away. */
   setTracks(tracks) {
     this.#tracks.set(tracks);
     this.#request();
@@ -196,22 +183,30 @@ export class Preview extends EventTarget {
     this.#request();
   }
 
+  /** `inFrame`: while the page makes a frame, in which it is drawn where there is no GPU. */
   setTime(seconds, inFrame = false) {
     this.#time = seconds;
     if (this.#table) this.#request(inFrame);
   }
 
+  /**
+   * What lies on the floor, null for nothing; `loadPoses` sets it where the poses carry one.
+   * @param {{floor: number, times: number[], com: number[][], cop: number[][]|null, feet: number[][][],
+   *   contact: boolean[][], margins: number[]}|null} overlay by sample, in m and s
+   */
   setOverlay(overlay) {
     this.#marks.setOverlay(overlay);
     this.#request();
   }
 
+  /** A part of `Marks`, such as "polygon", "robot" or "reach". */
   show(part, visible) {
     this.#marks.show(part, visible);
     if (this.#bodyNode) this.#client.push(this.#marks.visibleMessages());
     if (part === "reach" && visible) this.#request();
   }
 
+  /** Margin below which the polygon is amber, 3 mm unless set; below 0 it is red. */
   setCaution(metres) {
     this.#marks.setCaution(metres);
     this.#request();
@@ -226,6 +221,7 @@ export class Preview extends EventTarget {
     this.#request();
   }
 
+  /** A view by its name in `Camera`; `front`: the way that the robot looks, degrees. */
   setView(name, front = 0) {
     if (this.#bodyNode) this.#camera.view(name, front, this.#way());
   }
@@ -242,10 +238,12 @@ export class Preview extends EventTarget {
     this.#sharpness.hold(busy);
   }
 
+  /** The floor as it is seen (see `ViserClient.ground`), null where the camera is not known. */
   ground() {
     return this.#bodyNode ? this.#client.ground(floorOf(this.#marks.overlay)) : null;
   }
 
+  /** Resolves when what was shown before has been handed to a frame of the client. */
   async drawn() {
     const frame = () => new Promise((resume) => requestAnimationFrame(resume));
     do await frame();

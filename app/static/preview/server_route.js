@@ -1,6 +1,6 @@
 /**
- * The slow way to the 3D scene, for a Viser client whose inside can't be reached: the page sends each pose to the
- * server, which moves the nodes. One pose is on its way at a time, so that a busy server is not buried.
+ * The slow way to the 3D scene, for a Viser client whose inside can't be reached: the page sends each pose to
+ * the server, which moves the nodes. One pose is on its way at a time, so that a busy server is not buried.
  */
 
 export class ServerRoute {

@@ -1,9 +1,9 @@
 /**
  * Without a GPU: draws at screen resolution while anything moves, and finer once the view is still.
  *
- * Software drawing has no antialiasing here; drawing a still view finer than the screen does the same. Making the
- * drawing smaller holds up the page for about 100 ms (making it larger does not), so that this is done ahead of an
- * edit, when the pointer comes near what edits, and not in the middle of it.
+ * Software drawing has no antialiasing here; drawing a still view finer than the screen does the same. Making
+ * the drawing smaller holds up the page for about 100 ms (making it larger does not), so that this is done
+ * ahead of an edit, when the pointer comes near what edits, and not in the middle of it.
  */
 
 const MOVING_RATIO = 1;
@@ -35,7 +35,7 @@ export class Sharpness {
     this.moved();
   }
 
-  /** More is about to move, until this is called with false: coarse pixels at once, and no fine drawing meanwhile. */
+  /** More is about to move, until this is called with false: coarse pixels, and no fine drawing meanwhile. */
   hold(held) {
     if (held === this.#held) return;
     this.#held = held;

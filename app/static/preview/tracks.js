@@ -1,8 +1,9 @@
 /**
  * Foot tracks of trials on the ground, drawn over the shown gait; one mark a foot follows the playhead.
  *
- * Tracks come in the plan's frame (`GET /api/trials/{id}/scene`). What was filled, as a foot was not seen, is drawn grey and
- * broken, and so is the mark's ring. The playhead goes over the plan once: over the lap that the track was asked for.
+ * Tracks come in the plan's frame (`GET /api/trials/{id}/scene`). What was filled, as a foot was not seen, is
+ * drawn grey and broken, and so is the mark's ring. The playhead goes over the plan once: over the lap that
+ * the track was asked for.
  */
 
 import { visibleMessage } from "./viser_client.js";
@@ -20,7 +21,7 @@ const rgb = (colour) =>
   [1, 3, 5].map((at) => 255 * (Number.parseInt(colour.slice(at, at + 2), 16) / 255) ** 2.2);
 const UNSEEN = rgb(GREY);
 
-/** The line pieces of a foot's way: [points, colours]; where it was not seen they are grey, and every second one is missing. */
+/** Line pieces of a foot's way, [points, colours]; where it was not seen they are grey and broken. */
 function pathLine(places, filled, colour, height) {
   const [points, colours] = [[], []];
   let [from, gaps] = [0, 0];
@@ -52,7 +53,14 @@ function placeIn(values, value) {
   return [at, Math.min(Math.max(part, 0), 1)];
 }
 
-/** Puts a ring round a place, wider than a sole, into line pieces; every second piece of it is missing where the foot was not seen. */
+/**
+ * Puts a ring round a place, wider than a sole, into line pieces.
+ * @param {Float32Array} into
+ * @param {number} start
+ * @param {number[]} at
+ * @param {number} height
+ * @param {boolean} isBroken every second piece is missing, since the foot was not seen
+ */
 function ringInto(into, start, [x, y], height, isBroken) {
   for (let piece = 0; piece < RING_PIECES; piece += 1) {
     const length = isBroken && piece % 2 ? 0 : 1;

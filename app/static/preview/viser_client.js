@@ -1,10 +1,10 @@
 /**
  * The one place that knows the inside of the embedded Viser client (pinned: viser 1.1).
  *
- * The client hangs its mutable state on its window (`__viserMutable`): the queue of messages that its next frame
- * handles, the scene nodes that exist by name, and a function that asks for a frame. Messages pushed there are
- * handled exactly as if the server had sent them. `available` is false where a version lacks any of these; the
- * browser tests fail then.
+ * The client hangs its mutable state on its window (`__viserMutable`): the queue of messages that its next
+ * frame handles, the scene nodes that exist by name, and a function that asks for a frame. Messages pushed
+ * there are handled exactly as if the server had sent them. `available` is false where a version lacks any of
+ * these; the browser tests fail then.
  */
 
 import { groundView, spaceView } from "./ground.js";
@@ -75,7 +75,7 @@ export class ViserClient {
   /**
    * Puts messages into the queue and asks for a frame.
    * @param {Record<string, any>[]} messages
-   * @param {boolean} [atOnce] handles the queue now, so that lines and poses are drawn in one frame and not in two
+   * @param {boolean} [atOnce] handles the queue now, so that lines and poses are drawn in one frame
    */
   push(messages, atOnce = false) {
     const inside = this.#inside;
@@ -87,8 +87,8 @@ export class ViserClient {
   }
 
   /**
-   * Draws what has been pushed for the page's present frame, where there is no GPU: each frame of the page is dear there,
-   * and the client, when asked for a frame at a time, draws in every second one.
+   * Draws what has been pushed for the page's present frame, where there is no GPU: each frame of the page is
+   * dear there, and the client, when asked for a frame at a time, draws in every second one.
    * @returns {boolean} false where it was left to the frame that is asked for: once a frame is enough
    */
   drawNow() {
@@ -102,8 +102,8 @@ export class ViserClient {
   }
 
   /**
-   * Asks for a frame. The client's own way draws for 250 ms on end, since some changes need a frame more; without a GPU
-   * that holds up the whole page, so there it becomes one frame now and one after that time.
+   * Asks for a frame. The client's own way draws for 250 ms on end, since some changes need a frame more;
+   * without a GPU that holds up the whole page, so there it becomes one frame now and one after that time.
    */
   #requestFrame(inside) {
     const invalidate = this.drawsInSoftware ? inside.scene?.__r3f?.root?.getState?.().invalidate : undefined;
@@ -140,7 +140,7 @@ export class ViserClient {
   /**
    * Moves the ends of a node's line pieces without a message, which would make a new buffer each time.
    * @param {Float32Array} points n × 2 × 3 values
-   * @returns {Record<string, any>[]} the message to be pushed where the buffer is not known, or has another size
+   * @returns {Record<string, any>[]} the message to be pushed where the buffer is unknown or of another size
    */
   moveSegments(name, points) {
     let lines = null;
@@ -193,7 +193,7 @@ export class ViserClient {
     );
   }
 
-  /** What the camera sees now: places of the scene in pixels of the frame, and the camera's axes; null where they are not known. */
+  /** What the camera sees: places of the scene in pixels of the frame, and its axes; null if not known. */
   view() {
     const inside = this.#inside;
     const root = this.node("/floor/light")?.parent;
@@ -206,7 +206,7 @@ export class ViserClient {
     );
   }
 
-  /** Where the camera is going to stand, and what it looks at, [x, y, z] m in the scene; null where it is not known. */
+  /** Where the camera is going to stand and look at, [x, y, z] m in the scene; null where it is not known. */
   cameraPose() {
     const control = this.#inside?.cameraControl;
     const root = this.node("/floor/light")?.parent;

@@ -4,10 +4,11 @@
  * - The client retries a lost connection only while its document has focus; a frame seldom has it.
  * - The backdrop has its colours before the page around the frame can say so.
  * - Keys pressed in the frame belong to the page around it: Escape and Space must work wherever the focus is.
- * - Without a GPU, antialiasing costs more than it shows, and so do keeping each drawing for those who read it later and
- *   laying a drawing that can be seen through over the backdrop; the backdrop is drawn with the scene there.
- * - The client's sorter of Gaussian splats, which nothing here uses, wants to evaluate text; our policy refuses
- *   that, and the refusal need not be reported.
+ * - Without a GPU, antialiasing costs more than it shows, and so do keeping each drawing for those who read
+ *   it later and laying a drawing that can be seen through over the backdrop; the backdrop is drawn with the
+ *   scene there.
+ * - The client's sorter of Gaussian splats, which nothing here uses, wants to evaluate text; our policy
+ *   refuses that, and the refusal need not be reported.
  */
 (() => {
   document.hasFocus = () => true;
@@ -18,7 +19,8 @@
   const handOver = (event) => {
     event.stopImmediatePropagation();
     if (window.parent === window) return;
-    const copy = new window.parent.KeyboardEvent(event.type, event);
+    const { KeyboardEvent } = /** @type {any} */ (window.parent);
+    const copy = new KeyboardEvent(event.type, event);
     if (!window.parent.document.dispatchEvent(copy)) event.preventDefault();
   };
   for (const type of ["keydown", "keyup"]) window.addEventListener(type, handOver, { capture: true });
@@ -89,8 +91,9 @@
     return gl;
   };
 
-  window.footfallSoftwareDrawing = software.test(rendererName());
-  if (window.footfallSoftwareDrawing) {
+  const shared = /** @type {any} */ (window);
+  shared.footfallSoftwareDrawing = software.test(rendererName());
+  if (shared.footfallSoftwareDrawing) {
     const getContext = HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function lean(kind, options) {
       if (!kind.startsWith("webgl")) return getContext.call(this, kind, options);

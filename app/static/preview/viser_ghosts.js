@@ -1,8 +1,8 @@
 /**
  * Quiet second robots: another version of the gait at the playhead's time, drawn with lines.
  *
- * A ghost comes once, as poses of its few parts with the lines of each in its own frame (app/scene/ghost.py). In the
- * scene it is one node of line pieces, whose corners are placed anew with each pose.
+ * A ghost comes once, as poses of its few parts with the lines of each in its own frame (app/scene/ghost.py).
+ * In the scene it is one node of line pieces, whose corners are placed anew with each pose.
  */
 
 import { GhostMarks } from "./ghost_marks.js";

@@ -151,7 +151,7 @@ function showProgress({ start, cancel, progress, bar, words, searched }, job) {
   setAllowed(
     start,
     isOn ? "A search is running. Wait until the search ends, or cancel the search." : null,
-    "Tries every foot order and direction. " + "The search uses the other values that you have chosen above",
+    "Tries every foot order and direction. The search uses the other values that you have chosen above",
   );
   // What has the focus is not taken away with it.
   if (!isOn && document.activeElement === cancel) start.focus();

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Generic, TypeVar
 
+from app.gaits.open_gaits import OpenGaits
 from app.gaits.plan_cache import PlanRequest
-from app.gaits.service import GaitService
 from app.plans.plan import Plan
 from app.session.command_queue import CommandQueue
 
@@ -31,12 +31,12 @@ class Planner:
 
     Args:
         commands: the queue whose thread owns the open gaits.
-        service: the gaits.
+        open_gaits: the gaits.
     """
 
-    def __init__(self, commands: CommandQueue, service: GaitService) -> None:
+    def __init__(self, commands: CommandQueue, open_gaits: OpenGaits) -> None:
         self._commands = commands
-        self._service = service
+        self._open_gaits = open_gaits
         self._makers = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="plans")
 
     def close(self) -> None:
@@ -63,7 +63,7 @@ class Planner:
     def _go_on(self, waiting: _Waiting[Result], *, retry: bool) -> None:
         """On the command queue's thread: the action, or its plan first."""
         try:
-            asked = self._service.unplanned(waiting.gait, retry=retry)
+            asked = self._open_gaits.unplanned(waiting.gait, retry=retry)
             if asked is None:
                 waiting.future.set_result(waiting.action())
             else:
@@ -74,12 +74,12 @@ class Planner:
     def _make(self, asked: PlanRequest, waiting: _Waiting[Result]) -> None:
         """On a thread of its own: the plan, which the command queue then takes over."""
         try:
-            plan = self._service.planned(asked.open_gait.gait)
+            plan = self._open_gaits.planned(asked.open_gait.gait)
         except BaseException as error:  # it belongs to whoever waits for the result
             waiting.future.set_exception(error)
             return
         self._commands.tell(partial(self._take, asked, plan, waiting))
 
     def _take(self, asked: PlanRequest, plan: Plan, waiting: _Waiting[Result]) -> None:
-        self._service.on_plan(asked, plan)
+        self._open_gaits.on_plan(asked, plan)
         self._go_on(waiting, retry=False)

@@ -42,10 +42,11 @@ class GaitSummaries:
         return lines
 
     def _lines(self) -> list[Line]:
-        marks = self._service.marks()
+        marks = self._service.open_gaits.marks()
         self._kept = {gait_id: self._line(gait_id, mark) for gait_id, mark in marks.items()}
         lines = [line for _, line in self._kept.values() if line is not None]
-        return lines + [problem_view(name, _MISNAMED.format(name)) for name in self._service.misnamed()]
+        misnamed = self._service.open_gaits.misnamed()
+        return lines + [problem_view(name, _MISNAMED.format(name)) for name in misnamed]
 
     def troubles(self) -> dict[str, str]:
         """What is wrong with files, in sentences, by gait; nobody is given a list."""
@@ -61,8 +62,8 @@ class GaitSummaries:
         if kept is not None and kept[0] == mark:
             return kept
         try:
-            outside = self._service.outside(gait_id)
-            gait, builtin, edited = self._service.glance(gait_id)
+            outside = self._service.open_gaits.outside(gait_id)
+            gait, builtin, edited = self._service.open_gaits.glance(gait_id)
             times = self._service.times.of(gait_id, gait, is_original=builtin and not edited)
             return mark, line_view(gait_id, gait, builtin, edited, outside, times)
         except NotFoundError:
@@ -79,7 +80,7 @@ class GaitSummaries:
     def _way_out(self, gait_id: str) -> WayOut | None:
         """The way out of a gait that cannot be shown; None where that cannot be found out either."""
         try:
-            return self._service.way_out(gait_id)
+            return self._service.open_gaits.way_out(gait_id)
         except Exception:  # the row must stand all the same
             logger.exception("The way out of %s cannot be found.", gait_id)
             return None

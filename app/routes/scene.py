@@ -53,7 +53,7 @@ async def _version(studio: Studio, gait_id: str, of: Version) -> Plan:
     if gait is None:
         reason = "was not changed yet" if of is Version.BEFORE else "was never saved"
         raise StateError(f"“{open_gait.gait.name}” {reason}, so there is no such version to show.", "of")
-    return await run_in_threadpool(studio.gaits.planned, gait)
+    return await run_in_threadpool(studio.gaits.open_gaits.planned, gait)
 
 
 def _motion(plan: Plan) -> Trajectory:

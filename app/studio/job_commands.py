@@ -9,7 +9,8 @@ from app.common.json import Json
 from app.fastest.request import FastestRequest
 from app.fastest.service import KIND as FASTEST
 from app.fastest.service import FastestService
-from app.gaits.service import OPTIMISE, GaitService
+from app.gaits.results import OPTIMISE
+from app.gaits.service import GaitService
 from app.jobs.optimisation_service import OptimisationService
 from app.jobs.repository import JobRepository
 from app.learning.parameter_sets import ParameterSets
@@ -69,7 +70,7 @@ class JobCommands:
             StateError: there is none, or the gait is no sequence.
         """
         open_gait = self.gaits.open_gait(gait_id)
-        runs = self.gaits.runs_without_result(open_gait) if open_gait.gait.sequence else ()
+        runs = self.gaits.delivery.runs_without_result(open_gait) if open_gait.gait.sequence else ()
         if not runs:
             raise StateError(
                 "There is no part to optimise: each has its exact motion, or is made by hand or recorded.",

@@ -92,7 +92,7 @@ class Publisher:
         self._simulated_as[open_gait.id] = self._simulations.keys_of(plan)
         view = gait_view(open_gait, plan, self._hub.pages())
         return view | {
-            "outside": self._gaits.outside(open_gait.id),
+            "outside": self._gaits.open_gaits.outside(open_gait.id),
             "simulation": self._simulations.standing(open_gait.id, plan),
             "sources": self._sources(open_gait),
             "search": search,
@@ -104,7 +104,7 @@ class Publisher:
 
     def _glanced(self, gait_id: str) -> Gait:
         """A gait's document without opening the gait, which would read its whole history."""
-        return self._gaits.glance(gait_id)[0]
+        return self._gaits.open_gaits.glance(gait_id)[0]
 
     def job_views(self) -> list[Json]:
         """The newest jobs, newest first."""
@@ -148,7 +148,7 @@ class Publisher:
         if not self._list.has(open_gait.id):
             self.publish_list()
         self._publish_jobs(open_gait.id)
-        for sequence in self._gaits.sequences_with(open_gait.id):
+        for sequence in self._gaits.open_gaits.sequences_with(open_gait.id):
             self._publish_sources(sequence)
         return view
 
@@ -175,7 +175,7 @@ class Publisher:
 
     def publish_steps(self, page: str) -> None:
         """Shows what can be undone in the gaits that a page edited; it depends on the connected pages."""
-        for open_gait in self._gaits.touched_by(page):
+        for open_gait in self._gaits.open_gaits.touched_by(page):
             steps = {"id": open_gait.id, "revision": open_gait.revision}
             self._hub.publish({"type": "steps", **steps, **steps_view(open_gait, self._hub.pages())})
 

@@ -121,7 +121,7 @@ class Studio:
         self.gaits = GaitService(
             files, database, self.live.solve_for, hub.pages, simulated_for=self.simulations.simulated
         )
-        self._plans = self._register(Planner(self.commands, self.gaits))
+        self._plans = self._register(Planner(self.commands, self.gaits.open_gaits))
         self._register(solver)  # closed before the plans too, which wait for it
         self.job_repository = JobRepository(database)
         pose_solver = self._register(PoseGaitSolver())
@@ -251,12 +251,12 @@ class Studio:
             self.publisher.publish_job(content)
 
     def _on_result(self, content: Json, gait_id: str | None, author: Author) -> None:
-        resulted = self.gaits.on_result(content, gait_id, author)
+        resulted = self.gaits.delivery.on_result(content, gait_id, author)
         if resulted is not None:
             self.publisher.publish_soon(resulted.id)
 
     def _on_poses(self, motion: str, content: Json) -> None:
-        self.publisher.publish_all_soon(self.gaits.on_poses(motion, content))
+        self.publisher.publish_all_soon(self.gaits.delivery.on_poses(motion, content))
 
     def _keep_poses(self, motion: str, content: Json) -> None:
         """Stores checked poses that no gait may ask for yet. Thread-safe."""

@@ -144,7 +144,7 @@ def test_a_file_that_somebody_else_changed_is_marked_and_never_overwritten(
 def test_a_file_that_was_only_laid_out_anew_is_not_changed(service: GaitService, data: Path) -> None:
     made = service.create(named("Mine"))
     write_outside(path_of(data, made.id), made.gait)
-    assert service.outside(made.id) is None
+    assert service.open_gaits.outside(made.id) is None
     service.save(made.id)
 
 
@@ -152,7 +152,7 @@ def test_taking_the_file_over_is_an_edit_that_can_be_undone(service: GaitService
     made = service.create(named("Mine"))
     write_outside(path_of(data, made.id), replace(made.gait, notes="theirs"))
     taken = service.take_file(made.id)
-    assert (taken.gait.notes, taken.edited, service.outside(made.id)) == ("theirs", False, None)
+    assert (taken.gait.notes, taken.edited, service.open_gaits.outside(made.id)) == ("theirs", False, None)
     assert taken.revision > made.revision
     assert service.undo(made.id).gait == made.gait
     service.save(made.id)
@@ -163,10 +163,10 @@ def test_keeping_mine_sets_the_other_file_aside(service: GaitService, data: Path
     made = service.create(named("Mine"))
     write_outside(path_of(data, made.id), replace(made.gait, notes="theirs"))
     kept = service.keep_mine(made.id)
-    assert (kept.gait, kept.edited, service.outside(made.id)) == (made.gait, False, None)
+    assert (kept.gait, kept.edited, service.open_gaits.outside(made.id)) == (made.gait, False, None)
     (aside,) = (data / "set-aside").iterdir()
     assert json.loads(aside.read_text())["notes"] == "theirs"
-    assert restarted(data, database).outside(made.id) is None
+    assert restarted(data, database).open_gaits.outside(made.id) is None
     with pytest.raises(StateError):
         service.keep_mine(made.id)
 
@@ -187,7 +187,7 @@ def test_a_saved_gait_whose_file_was_truncated_opens_as_it_was_saved(
     with pytest.raises(InputError):
         service.take_file(made.id)
     service.keep_mine(made.id)
-    assert service.outside(made.id) is None
+    assert service.open_gaits.outside(made.id) is None
     assert GaitFiles(data).read(made.id) == made.gait
 
 
@@ -196,11 +196,11 @@ def test_a_file_over_a_gait_of_the_program_is_not_overwritten_unseen(
 ) -> None:
     service.open_gait("walk")
     write_outside(path_of(data, "walk"), replace(WALK, notes="theirs"))
-    assert service.outside("walk") is not None
+    assert service.open_gaits.outside("walk") is not None
     with pytest.raises(StateError):
         service.save("walk")
     assert service.take_file("walk").gait.notes == "theirs"
-    assert service.outside("walk") is None
+    assert service.open_gaits.outside("walk") is None
 
 
 @pytest.mark.parametrize("times", [1, 3])
@@ -217,7 +217,7 @@ def test_a_save_that_was_broken_off_before_its_file_was_written_is_no_change_of_
         path.write_bytes(before[0])
         os.utime(path, ns=(before[1], before[1]))
         again = restarted(data, database)
-    assert again.outside(made.id) is None
+    assert again.open_gaits.outside(made.id) is None
     assert again.open_gait(made.id).gait.notes == "newer"
     again.save(made.id)
     assert json.loads(path.read_text())["notes"] == "newer"

@@ -215,6 +215,6 @@ def test_a_plan_made_again_takes_the_approval_only_where_it_sends_something_else
     service = approved()
     asked = plan_cache.PlanRequest(seen(service), 0)
     again = with_longer_strokes(service.plan(GAIT), distance)
-    service.on_plan(asked, again)
+    service.open_gaits.on_plan(asked, again)
     assert service.plan(GAIT) is again
     assert (service.open_gait(GAIT).approval is not None) is stands

@@ -51,7 +51,7 @@ class Bench:
         self.tier = WatchedTier()
         self.commands = CommandQueue()
         self.service = GaitService(GaitFiles(folder), database, LivePlans(self.tier).solve_for)
-        self.plans = Planner(self.commands, self.service)
+        self.plans = Planner(self.commands, self.service.open_gaits)
 
     def planned(self, action: Any, gait_id: str = WALK) -> Any:
         return self.plans.after(gait_id, action).result(DEADLINE)

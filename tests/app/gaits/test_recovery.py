@@ -292,7 +292,7 @@ def test_a_line_that_fails_for_any_reason_hides_no_other(
     gait_id: str, tmp_path: Path, database: Database, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     service = reopened(tmp_path, database)
-    glance, way_out = service.glance, service.way_out
+    glance, way_out = service.open_gaits.glance, service.open_gaits.way_out
 
     def failing(wanted: str) -> tuple[Gait, bool, bool]:
         return 1 // 0 if wanted == gait_id else glance(wanted)  # type: ignore[return-value]
@@ -300,8 +300,8 @@ def test_a_line_that_fails_for_any_reason_hides_no_other(
     def without(wanted: str) -> WayOut | None:
         return 1 // 0 if wanted == gait_id else way_out(wanted)  # type: ignore[return-value]
 
-    monkeypatch.setattr(service, "glance", failing)
-    monkeypatch.setattr(service, "way_out", without)
+    monkeypatch.setattr(service.open_gaits, "glance", failing)
+    monkeypatch.setattr(service.open_gaits, "way_out", without)
     assert "ZeroDivisionError" in line(service, gait_id)["problem"]
     assert line(service, WALK)["problem"] is None
 

@@ -138,7 +138,7 @@ def test_a_solver_that_broke_off_is_asked_again(tmp_path: Path, database: Databa
     tour = service.create(made_sequence("Tour", [PartReference("rotate", 1)], service.document)).id
     assert service.plan(tour).broke_off
     first = service.plan(tour)
-    service.ask_again(tour)
+    service.open_gaits.ask_again(tour)
     assert service.plan(tour) is not first
 
 
@@ -154,7 +154,7 @@ def test_a_parts_exact_result_becomes_part_of_the_plan(service: GaitService) -> 
     content["provenance"] = asdict(result_provenance(motion_hash(run_gait), content))
     service.check(tour)
     twin = service.create(replace(service.document(tour), name="Twin")).id
-    resulted = service.on_result(content, tour)
+    resulted = service.delivery.on_result(content, tour)
     assert resulted is not None
     assert (resulted.verdict, resulted.undo_label()) == (None, "Optimise")
     assert [part.source for part in service.plan(tour).parts] == ["optimised", "live", "live"]
@@ -164,10 +164,10 @@ def test_a_parts_exact_result_becomes_part_of_the_plan(service: GaitService) -> 
     motion = solve_live(motion_problem(other, load_robot(other.robot))).trajectory
     second = {**content, "trajectory": trajectory_content(motion)}
     second["provenance"] = asdict(result_provenance(motion_hash(other), second))
-    again = service.on_result(second, tour)
+    again = service.delivery.on_result(second, tour)
     assert again is not None
     assert again.revision > revision, "an edit of what was seen before does not take the second result away"
-    left = service.runs_without_result(again)
+    left = service.delivery.runs_without_result(again)
     assert [run.name for run in left] == ["Rotate 15°"]
     service.undo(tour)
     assert [part.source for part in service.plan(tour).parts] == ["live", "live", "live"]

@@ -268,7 +268,7 @@ def test_a_file_of_a_part_for_another_robot_makes_no_motion(
     content = gait_content(service.document(tour))
     other = with_robot(gait("s-gait"), load_robot(robot))
     content["sequence"][2]["gait"] = gait_content(other)
-    plan = service.planned(gait_from_content(content))
+    plan = service.open_gaits.planned(gait_from_content(content))
     assert plan.trajectory is None
     assert plan.refusal is not None
     assert "Part 3, “S-Gait 10 mm” is for the robot" in plan.refusal.sentence

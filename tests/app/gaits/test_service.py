@@ -291,14 +291,14 @@ def test_a_live_tier_that_broke_off_is_asked_again_and_the_old_verdict_is_gone(
     tier, now = FixedTier(SolveStatus.FAILED), [0.0]
     service = GaitService(GaitFiles(tmp_path), database, LivePlans(tier, lambda: now[0]).solve_for)
     service.check(WALK)
-    service.ask_again(WALK)
+    service.open_gaits.ask_again(WALK)
     assert service.open_gait(WALK).verdict is not None
     assert tier.asked == 1
     tier.status = SolveStatus.INFEASIBLE
     asked = tier.asked
     now[0] += FAILED_SECONDS
-    service.ask_again(WALK)
-    service.ask_again(WALK)
+    service.open_gaits.ask_again(WALK)
+    service.open_gaits.ask_again(WALK)
     assert tier.asked == asked + 1
     live = service.plan(WALK).live
     assert live is not None

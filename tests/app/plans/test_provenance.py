@@ -62,7 +62,7 @@ def result_for(gait: Gait) -> dict[str, Any]:
 def take(service: GaitService, gait_id: str, author: Author = SCRIPT) -> dict[str, Any]:
     gait = service.open_gait(gait_id).gait
     content = result_for(gait)
-    resulted = service.on_result(content, gait_id, author)
+    resulted = service.delivery.on_result(content, gait_id, author)
     assert resulted is not None
     assert resulted.id == gait_id
     return content
@@ -116,7 +116,7 @@ def test_the_same_motion_found_once_more_keeps_the_approval(service: GaitService
     content = take(service, WALK)
     service.check(WALK)
     approved = service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True))
-    assert service.on_result(content, WALK) is None
+    assert service.delivery.on_result(content, WALK) is None
     assert service.open_gait(WALK) == approved
 
 
@@ -130,7 +130,7 @@ def test_a_copy_of_an_optimised_gait_has_its_result_also_where_another_copy_has_
     content = result_for(optimised)
     content["trajectory"]["body_world"][20][2] += 1e-9
     content["provenance"] = asdict(result_provenance(asked_hash(optimised), content))
-    service.on_result(content, second)
+    service.delivery.on_result(content, second)
     hashes = [service.plan(gait_id).result for gait_id in (WALK, first, second)]
     assert hashes[0] == hashes[1] != hashes[2]
 
@@ -138,7 +138,7 @@ def test_a_copy_of_an_optimised_gait_has_its_result_also_where_another_copy_has_
 def test_a_result_that_comes_after_an_edit_is_there_when_the_edit_is_undone(service: GaitService) -> None:
     drawn = service.open_gait(WALK).gait
     service.edit(WALK, longer(drawn), "Longer", None)
-    assert service.on_result(result_for(drawn), WALK) is None
+    assert service.delivery.on_result(result_for(drawn), WALK) is None
     assert shown(service, WALK) is None
     for step in (service.undo, service.redo, service.undo):
         step(WALK)
@@ -211,7 +211,7 @@ def test_a_result_of_this_machine_takes_the_place_of_one_from_elsewhere(service:
     theirs = result_provenance(motion, {**content, "trajectory": {}})
     gait_id = service.create(replace(library()[WALK].gait, name="Theirs", provenance=theirs)).id
     assert shown(service, gait_id) == (True, False)
-    service.on_result(content, gait_id)
+    service.delivery.on_result(content, gait_id)
     assert shown(service, gait_id) == (True, True)
 
 
@@ -326,7 +326,7 @@ def test_a_result_for_a_deleted_gait_is_there_when_it_comes_back(service: GaitSe
     content = result_for(service.open_gait(gait_id).gait)
     service.edit(gait_id, longer(service.open_gait(gait_id).gait), "Longer", None)
     service.delete(gait_id)
-    assert service.on_result(content, gait_id) is None
+    assert service.delivery.on_result(content, gait_id) is None
     service.restore(gait_id)
     service.undo(gait_id)
     assert shown(service, gait_id) == (True, True)
@@ -339,7 +339,7 @@ def test_a_result_leaves_a_recorded_motion_and_waits_for_the_gait_without_it(ser
     recording = Recording("walk.csv", RecordingForm.TRAJECTORY, text, format_companion(motion, text))
     service.edit(WALK, replace(drawn, recorded=recording), "Record", None)
     recorded = service.open_gait(WALK)
-    assert service.on_result(result_for(drawn), WALK) is None
+    assert service.delivery.on_result(result_for(drawn), WALK) is None
     assert service.open_gait(WALK) == recorded
     assert service.plan(WALK).source is PlanSource.RECORDED
     service.undo(WALK)

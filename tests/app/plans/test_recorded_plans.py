@@ -296,7 +296,7 @@ def test_a_sequence_that_begins_with_a_recorded_motion_is_exported_whole(
     older = replace(tour, recorded=recorded.recorded)
     assert motion_source(older) is MotionSource.SEQUENCE
     for gait in (tour, older):
-        plan = service.planned(gait)
+        plan = service.open_gaits.planned(gait)
         text = export(exportable_plan("tour", gait, plan), ExportFormat.CSV).content.decode()
         assert plan.trajectory is not None
         assert text == format_trajectory_csv(plan.trajectory)

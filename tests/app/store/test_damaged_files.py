@@ -76,6 +76,6 @@ def test_a_sequence_that_runs_too_often_keeps_no_result_from_another_gait(tmp_pa
             "trajectory": trajectory_content(solved.trajectory),
         }
         provenance = asdict(result_provenance(motion_hash(walk), result))
-        assert service.on_result({**result, "provenance": provenance}, "long") is None
+        assert service.delivery.on_result({**result, "provenance": provenance}, "long") is None
     finally:
         database.close()

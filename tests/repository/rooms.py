@@ -139,6 +139,8 @@ PAGE_ROOMS = frozenset({*ORDER[STATIC], "app/export/page", "app/atlas/page"})
 MOST_FILES = 25
 MOST_ON_OWN_LEVEL = {"core": 6, "solver_jobs": 3, "app": 4, STATIC: 6}
 """Files of code that a folder may hold, `__init__.py` not counted."""
+MOST_LINES = 400
+"""Lines that a file of code may have."""
 
 DOCUMENT = "docs/architecture.md"
 ROW = re.compile(r"^\| `([\w/]+)/` \| (.+) \|$", re.MULTILINE)
@@ -175,6 +177,19 @@ def overfull(paths: Collection[str]) -> list[str]:
         f"{folder} holds {count[folder]} files of code, at most {most[folder]}; split it by subject"
         for folder in count
         if count[folder] > most[folder]
+    ]
+
+
+def overlong(lines: Mapping[str, int]) -> list[str]:
+    """The files with too many lines.
+
+    Args:
+        lines: how many each file has.
+    """
+    return [
+        f"{path} has {count} lines, at most {MOST_LINES}; split it by subject"
+        for path, count in lines.items()
+        if count > MOST_LINES
     ]
 
 

@@ -25,11 +25,11 @@ _JS_IMPORT = re.compile(
 )
 
 
-def files(*suffixes: str) -> list[str]:
-    """Every file of the program with one of these suffixes, at any depth."""
+def files(*suffixes: str, parts: Sequence[str] = PARTS) -> list[str]:
+    """Every file of the program, or of other folders, with one of these suffixes, at any depth."""
     return sorted(
         str(path.relative_to(PROJECT))
-        for part in PARTS
+        for part in parts
         for path in (PROJECT / part).rglob("*")
         if path.suffix in suffixes and "__pycache__" not in path.parts
     )

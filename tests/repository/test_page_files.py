@@ -19,7 +19,6 @@ TEXTS = {
 """Modules and style sheets."""
 MODULES = {name: text for name, text in TEXTS.items() if name.endswith(".js")}
 SCRIPT = "\n".join(MODULES.values())
-MOST_LINES = 400
 
 IMPORTS = re.compile(
     r"""^(?:import|export)\s[^;"']*?from\s*["']([^"']+)["']|^import\s*["']([^"']+)["']"""
@@ -100,8 +99,3 @@ def test_the_promised_names_occur() -> None:
 def test_the_word_emergency_stands_in_one_sentence_only() -> None:
     assert len(re.findall("emergency", HTML + SCRIPT, flags=re.IGNORECASE)) == 1
     assert not re.search(r"\be-stop\b", HTML + SCRIPT, flags=re.IGNORECASE)
-
-
-def test_files_stay_small() -> None:
-    lines = {name: len(text.splitlines()) for name, text in TEXTS.items()}
-    assert {name: count for name, count in lines.items() if count > MOST_LINES} == {}

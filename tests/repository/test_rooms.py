@@ -9,10 +9,12 @@ import pytest
 from tests.repository.rooms import (
     DOCUMENT,
     MOST_FILES,
+    MOST_LINES,
     MOST_ON_OWN_LEVEL,
     ROOMS,
     ROW,
     overfull,
+    overlong,
     python_sentences,
     sentence,
     undocumented,
@@ -21,6 +23,7 @@ from tests.repository.rooms import (
 )
 from tests.repository.source_tree import (
     PAGE_CODE,
+    PARTS,
     STATIC,
     circle,
     files,
@@ -134,6 +137,18 @@ def test_a_crowded_folder_is_refused(folder: str) -> None:
     paths = [f"{folder}/__init__.py", *(f"{folder}/file{number}.py" for number in range(most))]
     assert overfull(paths) == []
     assert len(overfull([*paths, f"{folder}/one_more.js"])) == 1
+
+
+def test_no_file_has_too_many_lines() -> None:
+    paths = [*files(".py", parts=(*PARTS, "tests")), *files(".js", ".css")]
+    offenders = overlong({path: len((PROJECT / path).read_text().splitlines()) for path in paths})
+    assert len(paths) > 1000
+    assert not offenders, listed(offenders)
+
+
+def test_a_long_file_is_refused() -> None:
+    assert overlong({"core/names.py": MOST_LINES}) == []
+    assert len(overlong({"core/names.py": MOST_LINES + 1})) == 1
 
 
 def test_every_folder_of_python_has_a_docstring_of_one_sentence() -> None:

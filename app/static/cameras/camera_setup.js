@@ -163,7 +163,7 @@ async function removeSetup(draft, back) {
  * @param {Record<string, any>} page of the trials' panel
  * @param {Object} wanted
  * @param {Record<string, any>} wanted.answer the setup as the server tells it
- * @param {Record<string, any>} wanted.source where the picture comes from
+ * @param {import("../api/videos.js").Source} wanted.source where the picture comes from
  * @param {number} [wanted.frame]
  * @param {{text: string, act: () => void}} wanted.back
  */

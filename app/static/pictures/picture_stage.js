@@ -77,7 +77,7 @@ function stageSection(name, slider, picture) {
 
 /**
  * Opens the picture.
- * @param {Record<string, any>} source of `videoSource` or `cameraSource`
+ * @param {import("../api/videos.js").Source} source
  * @param {number} [frame] that is shown first
  * @param {(why: string|null) => void} [lost] gets why there is no current picture, null when there is again
  * @returns {Record<string, any>} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a

@@ -160,8 +160,8 @@ function emptyPart(open) {
     h("p", {
       class: "teach",
       text:
-        // The list is drawn anew when the trial is there. Only if the person left it, the example stays closed.
-        +"in which direction each foot moved, and compares the movement with the plan.",
+        "There is no trial yet. Add the foot tracks of a recording. The page then shows how far, how fast "
+        + "and in which direction each foot moved, and compares the movement with the plan.",
     }),
     h("div", { class: "buttons" }, button),
     words,

@@ -61,7 +61,7 @@ function mountAtlases(store) {
 
 /**
  * Builds them.
- * @param {{store: import("./state/store.js").Store, edits: Record<string, any>,
+ * @param {{store: import("./state/store.js").Store, edits: import("./state/edits.js").Edits,
  *   playback: import("./preview/playback.js").Playback, goTo: Function,
  *   gaitTools: ReturnType<typeof import("./shell/gait_menu.js").mountGaitTools>}} page
  * @returns {Record<"segments"|"sequence"|"countdown"|"runs", () => boolean>} what each does on Escape; true

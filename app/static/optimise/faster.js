@@ -84,7 +84,7 @@ export const drawFreelyButton = (store, edits) =>
 /**
  * The button on a drawn gait.
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {(id: string) => Promise<void>} show shows a gait
  */
 export const fasterButton = (store, edits, show) =>

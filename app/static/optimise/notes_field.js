@@ -50,7 +50,7 @@ function mountNoteKeys(area, edits, { text, keep, giveUp }) {
 /**
  * Builds the field.
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @returns {{element: HTMLElement, show: (document: Record<string, any>) => void}}
  */
 export function notesField(store, edits) {

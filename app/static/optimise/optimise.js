@@ -97,7 +97,7 @@ function followAnswers(store, advice, answer, timing) {
 /**
  * Builds the section.
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {(finding: {sample: number, foot: number|null}) => void} goTo shows a place on timeline and in 3D
  */
 export function mountOptimise(store, edits, goTo) {

@@ -81,7 +81,7 @@ function phaseFields(store, edits) {
 /**
  * Builds all fields.
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {(robot: Record<string, any>, document: Record<string, any>) => void} makeNew offers a new gait for
  *   a robot with other legs
  * @returns {Record<string, any>} `robot`, `order`, and lists `main` and `more`: fields with `element` and

@@ -30,7 +30,7 @@ export function handle(className, name, help) {
  * Makes a handle draggable and movable by keys; every change is shown, one edit is made at the end.
  * @param {HTMLElement} element
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {{begin: Function, drag: Function, key: Function, name: Function}} way `begin(point)` gives what
  *   `drag(point, from, free)` needs, `key(event)` a change or null; changes are functions from document to
  *   document

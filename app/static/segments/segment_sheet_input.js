@@ -218,7 +218,7 @@ function mountPointer(grid, cells, { sheet, head, go, select }, choose) {
 
 /**
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {HTMLElement} grid
  * @param {Record<string, any>} cells see `createSegmentSheetGrid`
  */

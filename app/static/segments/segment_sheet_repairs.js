@@ -66,7 +66,7 @@ function errorLine(sheet, errors, stops) {
 
 /**
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {HTMLElement} note
  * @param {() => void} focus gives the focus back to the grid
  */

@@ -20,7 +20,7 @@ function choice(line, robot) {
  * A list of all gaits by group, and the button that adds the chosen one; over the parts, so that it stays
  * in place.
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @returns {HTMLElement}
  */
 export function partAdder(store, edits) {

@@ -142,7 +142,7 @@ function takingOver(store) {
 /**
  * Builds the section, and the entry of the menu New that makes a sequence; `cancel` ends a drag.
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {import("../preview/playback.js").Playback} playback
  * @param {{addNew: (entry: Record<string, any>) => void}} gaitTools
  */

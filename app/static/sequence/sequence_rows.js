@@ -85,7 +85,7 @@ function press(event, index, actions, focus) {
 /**
  * Builds the grid; `show` gives it the state, `cancel` ends a drag.
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {import("../preview/playback.js").Playback} playback
  * @param {(index: number) => void} takeOver takes a part's gait over as it is now
  */

@@ -19,7 +19,7 @@ const restartable = (plan) =>
   (plan?.parts ?? []).filter((part) => part.has_own_motion).map(({ part }) => part);
 
 /**
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  */
 export function sequenceTrouble(edits) {
   let act = null;

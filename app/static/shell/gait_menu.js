@@ -116,7 +116,7 @@ function gaitActs(store, edits, show, deletedHere) {
 /**
  * Builds the menus.
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits what was done before is part of a copy and of a file
+ * @param {import("../state/edits.js").Edits} edits what was done before is part of a copy and of a file
  * @param {(id: string) => Promise<void>} show shows a gait
  * @returns {Record<"addNew"|"addAct", (entry: Entry) => void>} another entry of the menu New, and of the menu
  *   Gait, before Delete

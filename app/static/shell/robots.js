@@ -27,7 +27,7 @@ export function robotOptions(list, legs = null) {
 
 /**
  * The choice of the gait's robot: one with as many legs is an edit, any other one leads to a new gait.
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {(robot: Record<string, any>, document: Record<string, any>) => void} makeNew asks for a new gait
  */
 export function robotField(edits, makeNew) {

@@ -123,7 +123,7 @@ function mountKeyboard(page) {
 
 /**
  * @param {import("../state/store.js").Store} store
- * @param {Record<string, any>} edits
+ * @param {import("../state/edits.js").Edits} edits
  * @param {HTMLElement} grid
  * @param {() => Array} rows the drawn rows, each with its `cells`
  * @param {(sample: number) => void} reveal brings a sample into the shown window

@@ -65,7 +65,6 @@ class GaitService:
         clock: Callable[[], float] = time.time,
         simulated_for: Callable[[Plan], Simulated | None] = lambda plan: None,
     ) -> None:
-        self._database = database
         self._simulated_for = simulated_for
         self._results = Results(database)
         plans = PlanCache(self._results.of, solve_for, self._verdict_of)

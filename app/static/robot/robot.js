@@ -71,6 +71,12 @@ function checkedStopText({ stop_seconds: stop, checked_stop_seconds: checked, sc
   return `The step Check shows ${seconds(checked)} s for Stop, because ${why}`;
 }
 
+/** Shows what Send would do; not with each state of the robot, which comes many times a second. */
+function showSummary(element, state) {
+  element.replaceChildren(...summaryRows(state));
+  element.hidden = element.childElementCount === 0;
+}
+
 /** What will move, how long, and how soon it stops. */
 function summaryRows({ runSummary: run, view, selected }) {
   if (!run || run.gait !== selected || !view) return [];
@@ -348,10 +354,12 @@ export function mountRobot(store, edits, playback) {
           ?? "To send the gait, hold the button or the key Enter for one second. "
             + "Or click once to start a countdown.",
       );
-      parts.summary.replaceChildren(...summaryRows(state));
       setText(parts.stopText, stopSentence(stopLimit(state)));
-      parts.summary.hidden = parts.summary.childElementCount === 0;
     },
+  );
+  store.watch(
+    ({ view, runSummary, selected }) => [view, runSummary, selected],
+    (state) => showSummary(parts.summary, state),
   );
   followSummary(store);
   return send.cancel;

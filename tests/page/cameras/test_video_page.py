@@ -245,35 +245,3 @@ def test_a_file_that_is_no_video_is_refused_with_a_sentence(page: Page, tmp_path
     panel(page).get_by_label("Video file").set_input_files(path)
     expect(page.get_by_role("alert").filter(has_text="notes.mp4")).to_be_visible()
     expect(panel(page).get_by_label("Video file")).to_be_enabled()
-
-
-TAKEN = """async () => {
-  const folder = document.querySelector('script[src$="boot.js"]').src.replace("boot.js", "");
-  const { rangeOf } = await import(folder + "cameras/camera_feet.js");
-  const { guessPlace } = await import(folder + "cameras/camera_place.js");
-  const pixels = [[0, 0], [100, 10], [90, 120], [-10, 100]];
-  const places = [[0, 0], [10, 0], [10, 10], [0, 10]];
-  const points = pixels.map((pixel, at) => ({ pixel, place_cm: places[at] }));
-  return {
-    red: rangeOf([[220, 30, 40], [220, 40, 30], [200, 30, 30]]),
-    blue: rangeOf([[30, 60, 220], [40, 70, 230]]),
-    grey: rangeOf([[120, 120, 122], [90, 91, 90]]),
-    corners: pixels.map((pixel) => guessPlace(points, pixel)),
-    three: guessPlace(points.slice(1), [0, 0]),
-    line: guessPlace([0, 1, 2, 3].map((at) => ({ pixel: [at, at], place_cm: [at, at] })), [2, 2]),
-  };
-}"""
-
-
-def test_a_clicked_colour_gives_a_range_over_red_and_points_propose_the_place_of_the_next(page: Page) -> None:
-    taken = page.evaluate(TAKEN)
-    low, high = taken["red"]["hue"]
-    assert low > 0.9
-    assert high < 0.1
-    low, high = taken["blue"]["hue"]
-    assert low < 0.64 < high < low + 0.2
-    assert taken["grey"] is None
-    expected = [(0, 0), (10, 0), (10, 10), (0, 10)]
-    assert taken["corners"] == [pytest.approx(place, abs=1e-6) for place in expected]
-    assert taken["three"] is None
-    assert taken["line"] is None

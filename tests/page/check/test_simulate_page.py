@@ -104,38 +104,3 @@ def test_the_map_tells_walking_tipping_and_falling_apart_without_colour(page: Pa
     assert shown["signs"] == ["", "×", "!", "×"]
     assert shown["titles"][0].startswith("Variation 1: a. The robot walks. Tilt up to 5.7°")
     assert shown["titles"][3] == "Variation 4: d. The simulation ends early: It fell."
-
-
-def test_a_rule_without_a_value_has_no_room_of_zero(page: Page) -> None:
-    shown = page.evaluate("""async () => {
-      const { readable } = await import("/static/lib/format.js");
-      const shown = [readable(null, "rad"), readable(null, "m"), readable(0, "rad")];
-      return shown.map(({ value, unit }) => value + unit);
-    }""")
-    assert shown == ["–", "–", "0.00°"]
-
-
-OVERS = """async () => {
-  const { oversOf } = await import("/static/plots/measured.js");
-  const feet = [[[0, 0, 0]], [[0, 0, 0.001]]];
-  const motion = { times: [0, 1], strokes_mm: [[1], [2]], feet, margins_mm: [3, null] };
-  const simulation = { key: "k", waypoints_hash: "p", motion };
-  const run = { gait: "g", strokes: { plan_times: [0, 1], laps: [0, 0], measured_mm: [[1], [3]] } };
-  const view = { plan: { waypoints_hash: "p" }, simulation: { key: "k", fresh: true } };
-  const stale = { plan: { waypoints_hash: "q" }, simulation: { key: "k", fresh: false } };
-  const words = (state, strip) => oversOf({ selected: "g", view, ...state }, strip).map(({ word }) => word);
-  return {
-    both: words({ simulation, run }, "strokes"),
-    simulated: words({ simulation }, "margin"),
-    stale: words({ simulation, run, view: stale }, "strokes"),
-    iterate: words({ simulation, iterate: { plan: { waypoints_hash: "i" } } }, "strokes"),
-  };
-}"""
-
-
-def test_a_run_and_a_simulation_lie_over_each_other_and_a_stale_one_over_nothing(page: Page) -> None:
-    shown = page.evaluate(OVERS)
-    assert shown["both"] == ["simulated", "measured"]
-    assert shown["simulated"] == ["simulated"]
-    assert shown["stale"] == ["measured"]
-    assert shown["iterate"] == []

@@ -82,22 +82,6 @@ FOOT_SPEED_LIMIT = """async ([document, parts]) => {
   const { of } = STRIPS.find(({ key }) => key === "foot_speeds");
   return of({ foot_speeds_mm_s: [[1]], parts }, document).high;
 }"""
-PICTURE = """async ({ content, overs }) => {
-  const { stripPicture } = await import("/static/plots/strip_picture.js");
-  const { acrossOf } = await import("/static/plots/curves.js");
-  const times = content.rows[0].map((_, index) => index);
-  const axis = { start: -.5, step: 1, first: 0, shown: times.length };
-  const series = content.rows.map((row, at) => ({
-    foot: content.feet[at], motor: content.lanes ? at % 3 : null, valueAt: (index) => row[index],
-  }));
-  const across = acrossOf(axis, times);
-  const view = { axis, across, count: times.length, overs: overs ?? [], rules: [], grey: null };
-  const picture = stripPicture({ floor: null, ...content, series }, view);
-  return {
-    ...picture, at: content.probe.map(([foot, value]) => picture.scaleFor(foot)(value)),
-    curves: picture.drawing.curves, clips: picture.drawing.clips, lines: picture.drawing.lines,
-  };
-}"""
 
 
 @pytest.fixture
@@ -208,52 +192,6 @@ def test_what_passes_a_limit_is_drawn_in_the_bad_colour(page: Page, studio: Stud
     wait_for(lambda: "bad" not in painted(page, "strokes"), "every stroke keeps its limits")
 
 
-def test_a_foot_has_a_row_of_its_own_and_the_bad_colour_is_beyond_its_limit(page: Page) -> None:
-    rows = [[5.0, 9.0, 12.0, 5.0]] * 3 + [[5.0, 6.0, 7.0, 5.0]] * 3
-    content = {"rows": rows, "feet": [0, 0, 0, 1, 1, 1], "lanes": True, "low": 0.0, "high": 10.0}
-    seen = page.evaluate(PICTURE, {"content": {**content, "probe": [[0, 10.0], [1, 10.0], [1, 5.0]]}})
-    assert [(band["top"], band["bottom"]) for band in seen["bands"]] == [(0, 50), (50, 100)]
-    assert seen["at"][0] == pytest.approx(seen["clips"][0]["height"])
-    assert seen["clips"][1] == {"y": 50, "height": pytest.approx(seen["at"][1] - 50)}
-    assert 50 < seen["at"][1] < seen["at"][2] < 100
-    assert [curve["width"] for curve in seen["curves"]] == [2, 1.25, 0.75] * 2
-
-
-def test_a_limit_far_from_the_values_is_named_but_not_drawn(page: Page) -> None:
-    content = {"rows": [[3.0, 4.0, 5.0]], "feet": [0], "low": 0.5, "high": 30.0, "most": None, "probe": []}
-    seen = page.evaluate(PICTURE, {"content": content})
-    assert {(one["value"], one["away"]) for one in seen["named"]} == {(30.0, "up"), (0.5, None)}
-    assert [line["kind"] for line in seen["lines"]] == ["limit"]
-
-
-def test_feet_that_rise_together_share_one_line_and_feet_that_stand_are_not_drawn(page: Page) -> None:
-    rise = [0.0, 0.0, 1.0, 3.0, 3.0, 1.0, 0.0, 0.0]
-    later = [0.0] * 8
-    content = {"rows": [rise, later, rise], "feet": [0, 1, 2], "rises": True, "floor": 0, "probe": []}
-    first, never, third = page.evaluate(PICTURE, {"content": content})["curves"]
-    assert never["d"] == ""
-    assert first["dash"] == third["dash"] == [7, 7]
-    assert first["offset"] != third["offset"]
-    assert first["d"].count("L") == 5, "the sample before the rise and the one after it belong to it"
-    peaks = page.evaluate(PICTURE, {"content": content})["peaks"]
-    assert [peak["foot"] for peak in peaks] == [0, 2]
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "most", "ticks"),
-    [(0, 30, 4, [0, 10, 20, 30]), (3.2, 8.1, 2, [5]), (-0.1, 0.1, 3, [-0.1, 0, 0.1]), (2, 2, 4, [])],
-)
-def test_ticks_are_round_values(page: Page, low: float, high: float, most: int, ticks: list[float]) -> None:
-    found = page.evaluate(
-        """async ([low, high, most]) => {
-          const { ticksOf } = await import("/static/plots/curves.js");
-          return ticksOf(low, high, most);
-        }""",
-        [low, high, most],
-    )
-    assert found == pytest.approx(ticks)
-
-
 def test_a_plot_is_at_least_72_pixels_high_with_ticks_and_named_limits(page: Page) -> None:
     for key in ("margin", "strokes", "heights"):
         box = strip(page, key).bounding_box()
@@ -292,23 +230,6 @@ def test_twelve_feet_of_240_samples_are_drawn_at_once(page: Page) -> None:
     assert len(feet_painted(page, "foot_speeds")) == 12
     # The quickest of seven: other programs on the machine can only add to it.
     assert times[0] < LONGEST_DRAWING_MS
-
-
-def test_more_samples_than_pixels_are_thinned_and_keep_their_extremes(page: Page) -> None:
-    path = page.evaluate(
-        """async () => {
-          const { acrossOf, pathOf, WIDTH } = await import("/static/plots/curves.js");
-          const times = Array.from({ length: 60000 }, (_, index) => index * 0.001);
-          const axis = { samples: 60000, columns: 60000, first: 0, shown: 60000, step: .001, start: -.0005 };
-          const across = acrossOf(axis, times);
-          const values = times.map((_, index) => (index === 31234 ? 77 : index === 40000 ? null : index % 2));
-          return pathOf(across, (index) => values[index], (value) => value);
-        }"""
-    )
-    corners = [float(y) for y in re.findall(r"[ML][0-9.]+ ([0-9.-]+)", path)]
-    assert len(corners) <= 2002
-    assert max(corners) == 77
-    assert min(corners) == 0
 
 
 @pytest.mark.heavy

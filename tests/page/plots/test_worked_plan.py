@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
@@ -14,19 +13,6 @@ from tests.support.studio_process import StudioProcess, wait_for
 
 SHARES_STUDIO = True
 
-DRAWN = """async (states) => {
-  const { createStore } = await import("/static/state/store.js");
-  const { drawnPlan, greyOf, mountWorkedPlan } = await import("/static/state/worked_plan.js");
-  const store = createStore();
-  mountWorkedPlan(store);
-  const seen = [];
-  for (const state of states) {
-    store.set(state);
-    await new Promise((resume) => setTimeout(resume));
-    seen.push([greyOf(store.state), drawnPlan(store.state)?.hash ?? null]);
-  }
-  return seen;
-}"""
 GREYS = """() => {
   let [grey, coloured] = [0, 0];
   const robot = document.querySelector("#viser").contentWindow.__viserMutable?.nodeRefFromName["/robot"];
@@ -45,41 +31,6 @@ def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest
     has_scene = "scene" in request.keywords
     with opened_page(browser, studio.url, 1280, 800, has_scene=has_scene) as opened:
         yield opened
-
-
-def plan(name: str, status: str = "optimal", *, is_refused: bool = False) -> Any:
-    return {
-        "hash": name,
-        "source": "draft" if is_refused else "live",
-        "times": [] if is_refused else [0.0, 0.4],
-        "refusal": {"sentence": "It ends in the air."} if is_refused else None,
-        "live": None if is_refused else {"status": status, "lacks": []},
-    }
-
-
-def opened(gait: str, shown: Any) -> Any:
-    view = {"id": gait, "plan": shown, "document": {"robot": "deltawalker"}}
-    return {"selected": gait, "view": view, "live": None, "tryout": None}
-
-
-def test_the_last_plan_that_worked_is_drawn_in_grey_until_one_works_again(page: Page) -> None:
-    no, refused = plan("no", "infeasible"), plan("refused", is_refused=True)
-    states: list[tuple[Any, list[str | None]]] = [
-        (opened("a", plan("first")), [None, "first"]),
-        ({"live": {"plan": no}}, ["worked", "first"]),
-        ({"live": {"plan": plan("second")}}, [None, "second"]),
-        ({"live": {"plan": refused}}, ["worked", "second"]),
-        ({"tryout": plan("tried")}, [None, "tried"]),
-        ({"tryout": None}, ["worked", "second"]),
-        (
-            {"gesture": None, "view": {"id": "a", "document": {"robot": "hexapod"}}, "live": {"plan": no}},
-            ["nearest", "no"],
-        ),
-        (opened("b", no), ["nearest", "no"]),
-        (opened("b", refused), [None, "refused"]),
-        (opened("a", no), ["nearest", "no"]),
-    ]
-    assert page.evaluate(DRAWN, [state for state, _ in states]) == [seen for _, seen in states]
 
 
 @pytest.mark.heavy

@@ -242,22 +242,6 @@ def test_message_and_numbers_stand_beside_the_table(page: Page, studio: StudioPr
     expect(note(page)).to_be_hidden()
 
 
-def test_a_manual_plan_that_cannot_be_carried_out_is_not_green(page: Page) -> None:
-    said = page.evaluate(
-        """async () => {
-            const { planState } = await import("/static/state/plan_state.js");
-            const plan = { source: "manual", live: null, times: [0, 1], refusal: null, balance: 0.01 };
-            const unreachable = { ...plan, refusal: { sentence: "Too far." } };
-            return [plan, { ...plan, balance: -0.004 }, unreachable].map(planState);
-        }"""
-    )
-    assert said == [
-        ["By hand", "good"],
-        ["By hand, off balance", "bad"],
-        ["By hand, out of reach", "bad"],
-    ]
-
-
 def test_columns_are_the_robots_own_feet_in_every_direction(page: Page, studio: StudioProcess) -> None:
     gait = copy_of(studio, WALK, "Turned", direction=2)
     choose(page, "Turned")

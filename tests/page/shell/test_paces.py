@@ -13,30 +13,11 @@ from tests.support.studio_process import StudioProcess
 
 SHARES_STUDIO = True
 
-WORDS = """async (gait) => (await import("/static/lib/format.js")).paceText(gait)"""
-
 
 @pytest.fixture(scope="module")
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800) as opened:
         yield opened
-
-
-@pytest.mark.parametrize(
-    ("speed", "turn_rate", "words"),
-    [
-        (0.00227, 0.0, "2.27 mm/s"),
-        (0.0025, 0.03, "2.50 mm/s"),
-        (0.0, 0.103, "5.9°/s"),
-        (0.000001, -0.103, "5.9°/s"),
-        (0.0, 0.0, ""),
-        (None, None, ""),
-    ],
-)
-def test_words_are_of_the_speed_and_without_one_of_the_turn(
-    page: Page, speed: float | None, turn_rate: float | None, words: str
-) -> None:
-    assert page.evaluate(WORDS, {"speed": speed, "turn_rate": turn_rate}) == words
 
 
 def test_the_list_shows_a_rate_for_gaits_that_only_turn(page: Page) -> None:

@@ -347,26 +347,3 @@ def change_elsewhere(studio: StudioProcess, margin: float) -> None:
     revision = studio.ask("GET", "/api/gaits/rotate/view").content["revision"]
     path = f"/api/gaits/rotate?label=Margin%20to%20{margin * 1000:.0f}%20mm&revision={revision}"
     assert studio.ask("PUT", path, content).status == 200
-
-
-CHECKED = """async () => {
-  const { acceptView, checkGone, createStore } = await import("/static/state/store.js");
-  const store = createStore({ selected: "walk" });
-  const why = (view) => {
-    acceptView(store, { id: "walk", ...view });
-    return checkGone(store.state.view, store.state.checked.walk);
-  };
-  why({ stamp: 1, revision: 7, verdict: {} });
-  const simulation = { fresh: true };
-  const simulated = why({ stamp: 2, revision: 7, simulation });
-  return [simulated, why({ stamp: 3, revision: 7 }), why({ stamp: 4, revision: 8, simulation })];
-}"""
-
-
-def test_a_check_that_no_edit_took_away_is_not_said_to_be_gone_by_one(page: Page) -> None:
-    said = page.evaluate(CHECKED)
-    assert said == [
-        "the gait was simulated again after the check",
-        "the plan was computed again after the check",
-        "the gait changed",
-    ]

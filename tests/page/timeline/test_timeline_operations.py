@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import pytest
 from playwright.sync_api import Browser, expect
@@ -15,10 +14,6 @@ from tests.support.studio_process import StudioProcess, wait_for
 SHARES_STUDIO = True
 
 ZEROS = "0" * 24
-OUTCOME = """async ([id, state, amount]) => {
-  const { outcomeOf } = await import("/static/document/operations.js");
-  return JSON.parse(JSON.stringify(outcomeOf(id, state, amount)));
-}"""
 
 
 @pytest.fixture(scope="module")
@@ -30,93 +25,6 @@ def timeline(browser: Browser, studio: StudioProcess) -> Iterator[TimelinePage]:
 def spliced(first: int, last: int, *inside: str) -> tuple[str, ...]:
     """The four rows with samples (counted from 1) replaced by other text."""
     return tuple(row[: first - 1] + text + row[last:] for row, text in zip(FOUR, inside, strict=True))
-
-
-@dataclass(frozen=True)
-class Case:
-    """An operation on a rectangle: its name, number where it asks for one, what becomes of FOUR."""
-
-    operation: str
-    start: tuple[int, int]
-    end: tuple[int, int]
-    feet: tuple[str, ...]
-    label: str
-    amount: int | None = None
-
-
-CASES = (
-    Case(
-        "stance",
-        (1, 5),
-        (2, 9),
-        painted(painted(FOUR, 1, 5, 8, "1"), 2, 9, 9, "1"),
-        "Feet 1–2, samples 5–9 to stance",
-    ),
-    Case("duplicate", (1, 5), (1, 8), painted(FOUR, 1, 9, 12, "0"), "Duplicate foot 1, samples 5–8"),
-    Case("mirror", (1, 5), (1, 12), (FOUR[1], FOUR[0], *FOUR[2:]), "Mirror foot 1, samples 5–12"),
-    Case(
-        "reverse",
-        (1, 5),
-        (1, 9),
-        painted(painted(FOUR, 1, 5, 5, "1"), 1, 9, 9, "0"),
-        "Reverse foot 1, samples 5–9",
-    ),
-    Case(
-        "shift",
-        (1, 5),
-        (1, 9),
-        painted(painted(FOUR, 1, 6, 6, "1"), 1, 9, 9, "0"),
-        "Shift foot 1, samples 5–9 by −3",
-        -3,
-    ),
-    Case(
-        "stretch", (1, 5), (1, 8), painted(FOUR, 1, 5, 10, "0"), "Stretch foot 1, samples 5–8 to 6 samples", 6
-    ),
-    Case(
-        "stretch",
-        (1, 5),
-        (4, 8),
-        spliced(5, 8, "00", "11", "11", "11"),
-        "Stretch all feet, samples 5–8 to 2 samples",
-        2,
-    ),
-    Case(
-        "insert",
-        (3, 6),
-        (3, 6),
-        spliced(6, 5, "000", "111", "111", "111"),
-        "Insert 3 samples before sample 6",
-        3,
-    ),
-    Case("remove", (2, 1), (2, 3), spliced(1, 3, "", "", "", ""), "Remove samples 1–3"),
-    Case(
-        "repeat",
-        (1, 5),
-        (1, 10),
-        spliced(5, 10, "000011" * 2, "111100" * 2, "111111" * 2, "111111" * 2),
-        "Repeat samples 5–10 2×",
-        2,
-    ),
-)
-
-
-@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.operation} {case.amount or ''}")
-def test_an_operation_changes_the_region_and_nothing_else(timeline: TimelinePage, case: Case) -> None:
-    region = {
-        "feet": [case.start[0] - 1, case.end[0] - 1],
-        "samples": [case.start[1] - 1, case.end[1] - 1],
-    }
-    content = {
-        "timeline": {"sample_time": 0.4, "feet": FOUR, "locked": None},
-        "direction": 1,
-        "iterations": 1,
-    }
-    asked = [case.operation, {"document": content, "region": region, "mirror": [1, 0, 3, 2]}, case.amount]
-    outcome = timeline.page.evaluate(OUTCOME, asked)
-    assert outcome.get("reason") is None
-    assert tuple(outcome["document"]["timeline"]["feet"]) == case.feet
-    assert outcome["label"] == case.label
-    assert outcome["document"] | {"timeline": None} == content | {"timeline": None}
 
 
 def test_a_number_is_asked_for_shown_on_the_timeline_and_is_one_named_edit(timeline: TimelinePage) -> None:

@@ -1,0 +1,20 @@
+/** What the store keeps about a gait's check. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { acceptView, checkGone, createStore } from "../../../app/static/state/store.js";
+
+test("a check that no edit took away is not said to be gone by one", () => {
+  const store = createStore({ selected: "walk" });
+  const why = (view) => {
+    acceptView(store, { id: "walk", ...view });
+    return checkGone(store.state.view, store.state.checked.walk);
+  };
+  why({ stamp: 1, revision: 7, verdict: {} });
+  const simulation = { fresh: true };
+  const simulated = why({ stamp: 2, revision: 7, simulation });
+  assert.equal(simulated, "the gait was simulated again after the check");
+  assert.equal(why({ stamp: 3, revision: 7 }), "the plan was computed again after the check");
+  assert.equal(why({ stamp: 4, revision: 8, simulation }), "the gait changed");
+});

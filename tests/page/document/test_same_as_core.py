@@ -198,6 +198,7 @@ def random_case(random: np.random.Generator) -> Case:
     )
 
 
+@pytest.mark.heavy
 def test_the_page_and_core_agree_on_random_documents(browser: Browser, studio: StudioProcess) -> None:
     random = np.random.default_rng(20261128)
     cases = [random_case(random) for _ in range(DOCUMENTS)]

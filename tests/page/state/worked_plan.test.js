@@ -23,6 +23,7 @@ function opened(id, shown) {
 test("the last plan that worked is drawn in grey until one works again", async () => {
   const [no, refused] = [plan("no", "infeasible"), refusedPlan("refused")];
   const ofAnotherRobot = { id: "a", document: { robot: "hexapod" } };
+  /** @type {[Record<string, any>, (string|null)[]][]} */
   const states = [
     [opened("a", plan("first")), [null, "first"]],
     [{ live: { plan: no } }, ["worked", "first"]],

@@ -2,6 +2,7 @@
 
 declare module "node:test" {
   export function test(name: string, body: () => void | Promise<void>): void;
+  export function beforeEach(run: () => void | Promise<void>): void;
 }
 
 declare module "node:assert/strict" {

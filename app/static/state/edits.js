@@ -2,8 +2,8 @@
  * Edits of the gait: applied on screen at once, sent one after the other, each a named undo entry.
  *
  * An edit is a function from document to document, so that it can be put on top of what another tab did
- * meanwhile. It has a number, by which a state of the studio says that it is in it: one that is shown or sent
- * again is made once. A drawing that the server refuses stays on screen, marked, and goes along with the next
+ * meanwhile. Each edit has a number. A view lists the numbers that it contains, so that no edit is shown or
+ * made twice. A drawing that the server refuses stays on screen, marked, and goes along with the next
  * edit. Where the server does not answer, edits wait until it does.
  * Every act is of the gait that was shown when it was done, and reaches that one.
  */
@@ -12,7 +12,7 @@ import { editNumber } from "../api/author.js";
 import { CONFLICT, api } from "../api/gaits.js";
 import { undoSegmentDraft } from "./segment_draft.js";
 import { whyNotDrawn } from "../document/drawable.js";
-import { acceptView, shownDocument } from "./store.js";
+import { acceptView, editsMissingIn, shownDocument } from "./store.js";
 import { report, toast } from "../lib/toasts.js";
 
 /**
@@ -31,6 +31,10 @@ const NO_ANSWER = 0;
 const RETRY_MS = 1000;
 const NOT_ANSWERING =
   "The studio does not answer. Your edits stay on this page and are sent when the studio answers.";
+const PERHAPS_MADE = "The studio may have this edit already. Undo it when the studio answers.";
+
+/** Edits that were sent without an answer. @type {WeakSet<Edit>} */
+const unanswered = new WeakSet();
 
 /**
  * Sets cells of the timeline; locked cells keep their value.
@@ -82,7 +86,8 @@ async function put(store, batch, tries = 1) {
   const { view: shown } = store.state;
   const view = shown?.id === gait ? shown : await api.view(gait);
   try {
-    return await api.put(gait, withEdits(batch, view.document), newest, view.revision);
+    const document = withEdits(editsMissingIn(view, batch), view.document);
+    return await api.put(gait, document, newest, view.revision);
   } catch (/** @type {any} */ error) {
     if (error.status !== CONFLICT || error.where !== "revision" || tries === MOST_TRIES) throw error;
     if (isShown(store, gait)) acceptView(store, await api.view(gait));
@@ -134,7 +139,10 @@ async function sendNext(store, batch) {
     settle(store, batch, { refused: null, formError: null });
     acceptView(store, view);
   } catch (/** @type {any} */ error) {
-    if (error.status === NO_ANSWER) return false;
+    if (error.status === NO_ANSWER) {
+      unanswered.add(batch[batch.length - 1]);
+      return false;
+    }
     acceptRefusal(store, batch, error);
   }
   return true;
@@ -142,7 +150,7 @@ async function sendNext(store, batch) {
 
 /**
  * What is sent next: edits of a gait that was left come first, and refused drawings go along with the next
- * edit. The newest edit's number stands for all, so that the same ones are sent again without an answer.
+ * edit. A batch is sent under its newest edit's number; without an answer the same batch is sent again.
  * @param {Store} store
  */
 function nextBatch({ state: { pending, left } }) {
@@ -210,7 +218,10 @@ function dropRefused(store) {
  */
 function dropUnsent(store) {
   const { pending } = store.state;
-  if (pending.some(({ refused }) => refused)) dropRefused(store);
+  const isRefused = pending.some(({ refused }) => refused);
+  const sent = pending.findLastIndex((edit) => unanswered.has(edit)) + 1;
+  if (sent && (isRefused || sent === pending.length)) report(new Error(PERHAPS_MADE));
+  else if (isRefused) dropRefused(store);
   else store.set({ pending: pending.slice(0, -1) });
 }
 
@@ -335,7 +346,7 @@ export function createEdits(store) {
       flush();
       return enqueue(() => undefined);
     },
-    dropRefused: () => dropRefused(store),
+    takeBack: () => enqueue(() => dropUnsent(store)),
     /** @param {number[][]} cells @param {boolean} swing */
     paint: (cells, swing) =>
       edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),

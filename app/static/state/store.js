@@ -213,12 +213,12 @@ export function checkGone(view, { revision }) {
 
 /**
  * Edits that a view does not have yet; those before one that it has went along with that.
- * @param {Edit[]} pending
  * @param {Record<string, any>} view
+ * @param {Edit[]} edits
  */
-function stillPending(pending, { edits }) {
-  const had = pending.findLastIndex(({ number }) => edits.includes(number)) + 1;
-  return had ? pending.slice(had) : pending;
+export function editsMissingIn({ edits: made = [] }, edits) {
+  const had = edits.findLastIndex(({ number }) => made.includes(number)) + 1;
+  return had ? edits.slice(had) : edits;
 }
 
 /**
@@ -227,16 +227,18 @@ function stillPending(pending, { edits }) {
  * @param {Record<string, any>} view
  */
 export function acceptView(store, view) {
-  const { selected, view: current, checked, pending } = store.state;
+  const { selected, view: current, checked, refused, pending } = store.state;
   if (view.id !== selected) return;
   if (current && current.id === view.id && view.stamp < current.stamp) return;
   const seen =
     view.verdict || view.approval
       ? { word: view.approval ? "approved" : (checked[view.id]?.word ?? "checked"), revision: view.revision }
       : checked[view.id];
+  const missing = editsMissingIn(view, pending);
   store.set({
     view,
-    pending: stillPending(pending, view),
+    pending: missing,
+    refused: missing.some((edit) => edit.refused) ? refused : null,
     checked: seen ? { ...checked, [view.id]: seen } : checked,
   });
 }

@@ -49,7 +49,7 @@ function showNote(store, edits) {
   });
   return note.replaceChildren(
     text,
-    ...(refused ? [h("button", { text: "Take it back", on: { click: edits.dropRefused } })] : []),
+    ...(refused ? [h("button", { text: "Take it back", on: { click: () => edits.takeBack() } })] : []),
     ...(sentence === notice ? [dismissButton(dismiss)] : []),
   );
 }

@@ -23,7 +23,7 @@ class OpenGaits:
         repository: the gaits as they are kept.
         recovery: the ways out of gaits that cannot be shown.
         plans: the newest plan of each gait.
-        times: the robot times of gaits, told of each plan.
+        times: the robot times of gaits; records those of each plan.
     """
 
     def __init__(

@@ -96,7 +96,7 @@ class ResultDelivery:
         results: where they are stored.
         open_gaits: the open gaits.
         plans: the newest plan of each gait.
-        edit: makes a document a gait's present one, as an edit that can be undone.
+        edit: applies a document as an edit that can be undone.
     """
 
     def __init__(

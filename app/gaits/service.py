@@ -113,7 +113,7 @@ class GaitService:
         label: str,
         revision: int | None,
         author: Author = _SCRIPT,
-        edit: str = "",
+        edit_number: str = "",
     ) -> OpenGait:
         """Makes a changed document the present one, in memory and in the database.
 
@@ -125,7 +125,7 @@ class GaitService:
             label: what the edit is called.
             revision: that the edit was made on; None for any.
             author: whose edit it is.
-            edit: the number that its page gave it. One that was made already is not made again.
+            edit_number: given by its page. An edit that was made already is not made again.
 
         Raises:
             StateError: somebody else changed it since the given revision.
@@ -135,7 +135,7 @@ class GaitService:
             self.recover(gait_id, author)
             revision = None  # nobody can have seen the revision that was there
         open_gait = self.open_gait(gait_id)
-        if open_gait.history.has(edit):
+        if open_gait.history.has_edit(edit_number):
             return open_gait
         if revision is not None and revision != open_gait.revision:
             raise StateError(
@@ -145,7 +145,7 @@ class GaitService:
         changed, notice = normalise(open_gait.gait, gait)
         if changed == open_gait.gait:
             return open_gait
-        return self._edited(open_gait, changed, label or "Edit", author, notice, edit)
+        return self._edited(open_gait, changed, label or "Edit", author, notice, edit_number)
 
     def _edited(
         self,
@@ -154,12 +154,12 @@ class GaitService:
         label: str,
         author: Author,
         notice: str | None = None,
-        edit: str = "",
+        edit_number: str = "",
     ) -> OpenGait:
         gait = self._results.with_known_poses(gait)
         require_line(gait)
         version = self.versions.due(open_gait)
-        history = open_gait.history.edited(gait_text(gait), label, author, self._others(author), edit)
+        history = open_gait.history.edited(gait_text(gait), label, author, self._others(author), edit_number)
         return self.open_gaits.put(open_gait.changed(history.pruned(), gait, notice), version)
 
     def _others(self, author: Author) -> frozenset[str]:

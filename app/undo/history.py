@@ -137,9 +137,9 @@ class History:
         newest = (self.entries.get(at) for at in range(self.last, self.last - NEWEST_EDITS, -1))
         return tuple(entry.edit for entry in newest if entry is not None and entry.edit)
 
-    def has(self, edit: str) -> bool:
+    def has_edit(self, number: str) -> bool:
         """Whether an edit of this number is in the log; never of one without a number."""
-        return bool(edit) and any(entry.edit == edit for entry in self.entries.values())
+        return bool(number) and any(entry.edit == number for entry in self.entries.values())
 
     def edited(
         self, document: str, label: str, author: Author, others: frozenset[str], edit: str = ""

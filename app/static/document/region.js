@@ -7,7 +7,7 @@ import { clamp } from "../lib/clamp.js";
  * @typedef {{feet: number[], samples: number[]}} Region each [first, last]
  */
 
-/** The rows of the timeline's cells, a row a foot. @param {GaitDocument} document @returns {string[]} */
+/** The rows of the timeline's cells, a row per foot. @param {GaitDocument} document @returns {string[]} */
 export const rowsOfFeet = ({ timeline }) => timeline.feet;
 
 /** @param {GaitDocument} document @returns {number[]} */

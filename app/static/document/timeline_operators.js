@@ -23,7 +23,7 @@ const withFeet = (document, feet) => ({ ...document, timeline: { ...document.tim
 const written = (row, sample, text) =>
   row.slice(0, sample) + text.slice(0, row.length - sample) + row.slice(sample + text.length);
 
-/** Rows of 1 and 0 inside a region, a row a foot. @param {GaitDocument} document @param {Region} region */
+/** Rows of 1 and 0 inside a region, a row per foot. @param {GaitDocument} document @param {Region} region */
 export const blockOf = (document, { feet: [top, bottom], samples: [first, last] }) =>
   rowsOfFeet(document)
     .slice(top, bottom + 1)

@@ -1,4 +1,4 @@
-/** The grid of the pattern: a row a foot, a cell a sample; fixed cells are purple and hatched. */
+/** The grid of the pattern: a row per foot, a cell per sample; fixed cells are purple and hatched. */
 
 import { rovingFocus } from "../timeline/cells.js";
 import { h, setAttribute, setText } from "../lib/dom.js";

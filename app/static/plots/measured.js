@@ -3,7 +3,7 @@
 import { acrossOf, pathOf } from "./curves.js";
 import { simulationOver, traceOf } from "../state/simulation.js";
 
-/** Strips with measured curves: the field of the run, and its values a foot (0: one for the body). */
+/** Strips with measured curves: the field of the run, and its values per foot (0: one for the body). */
 const OVER = {
   strokes: { of: "measured_mm", aFoot: 3 },
   heights: { of: "foot_heights_mm", aFoot: 1 },

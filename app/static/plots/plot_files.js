@@ -183,7 +183,7 @@ const columnName = ({ unit }, { foot, motor }) =>
 const number = (value) =>
   (value ?? null) === null || !Number.isFinite(value) ? "" : String(Number(value.toFixed(6)));
 
-/** Every value of the strip, a row a sample: planned values, then the simulated and the measured ones. */
+/** Every value of the strip, a row per sample: planned values, then the simulated and the measured ones. */
 export function plotCsv({ kind, content, plan, overs }) {
   const { series } = content;
   const lines = [
@@ -228,7 +228,7 @@ async function save(form, drawn) {
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
-/** Buttons that save a plot, one a format; `drawn()` gives what `plotSvg` and `plotCsv` take, or null. */
+/** Buttons that save a plot, one per format; `drawn()` gives what `plotSvg` and `plotCsv` take, or null. */
 export function saveButtons(kind, drawn) {
   const help = {
     SVG: "Saves the plot as an SVG picture, for papers",

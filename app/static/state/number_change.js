@@ -6,7 +6,7 @@
  */
 
 /**
- * A number as text, with as many decimals as it needs at most.
+ * A number as text, with at most `decimals` decimals.
  * @param {number|null} value
  * @param {number} decimals
  */

@@ -1,4 +1,4 @@
-/** The footfall timeline: an ARIA grid, a row a foot, a cell a sample. */
+/** The footfall timeline: an ARIA grid, a row per foot, a cell per sample. */
 
 import { missingMotionByCell } from "../document/missing_motion.js";
 import { byId, h, icon } from "../lib/dom.js";

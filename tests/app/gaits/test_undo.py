@@ -46,12 +46,15 @@ def test_an_edit_that_is_sent_again_is_made_once_also_after_a_restart(
     service: GaitService, tmp_path: Path, database: Database
 ) -> None:
     once = toggled(service.open_gait(WALK).gait, 0, 1)
-    made = service.edit(WALK, once, "Once", None, edit="page.1")
+    made = service.edit(WALK, once, "Once", None, edit_number="page.1")
     twice = toggled(once, 0, 2)
     for asked in (service, reopened(tmp_path, database)):
-        again = asked.edit(WALK, twice, "Once", 0, edit="page.1")
+        again = asked.edit(WALK, twice, "Once", 0, edit_number="page.1")
         assert (again.gait, again.revision) == (made.gait, made.revision)
-    assert service.edit(WALK, twice, "Another", made.revision, edit="page.2").revision == made.revision + 1
+    assert (
+        service.edit(WALK, twice, "Another", made.revision, edit_number="page.2").revision
+        == made.revision + 1
+    )
     assert service.open_gait(WALK).history.newest_edits == ("page.2", "page.1")
 
 

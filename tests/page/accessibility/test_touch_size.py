@@ -11,7 +11,6 @@ from tests.support.page.axe import require_no_finding
 from tests.support.page.touch import touch_page
 from tests.support.studio_process import StudioProcess
 
-SHARES_STUDIO = True
 pytestmark = pytest.mark.heavy
 
 

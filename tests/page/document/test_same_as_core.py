@@ -147,8 +147,8 @@ class Case:
     heading: float
     offset: tuple[float, float]
 
-    def asked(self) -> dict[str, Any]:
-        """The same for the page."""
+    def page_input(self) -> dict[str, Any]:
+        """The case as the page takes it."""
         ahead = np.array([np.cos(self.heading), np.sin(self.heading)])
         along, sideways = self.offset
         away = along * ahead + sideways * np.array([-ahead[1], ahead[0]])  # as `PoseProblem.pinned_offset`
@@ -162,7 +162,7 @@ class Case:
         }
 
     def expected(self) -> dict[str, Any]:
-        """What core says; of a locked cell that would change, its name."""
+        """Values that core computes; of a locked cell that would change, its name."""
         gait, (along, sideways) = self.gait, self.offset
         turned = gait.held.turned(self.turns, gait.timeline.leg_count)
         return {
@@ -203,7 +203,7 @@ def test_the_page_and_core_agree_on_random_documents(browser: Browser, studio: S
     random = np.random.default_rng(20261128)
     cases = [random_case(random) for _ in range(DOCUMENTS)]
     with opened_page(browser, studio.url, 1280, 800) as page:
-        answers = page.evaluate(PAGE, [case.asked() for case in cases])
+        answers = page.evaluate(PAGE, [case.page_input() for case in cases])
     assert 50 < sum(answer["isDrawn"] for answer in answers) < 150
     assert sum(answer["again"] is None for answer in answers) > 10
     assert sum(answer["locked"] is not None for answer in answers) > 10

@@ -11,6 +11,7 @@ from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ConfigDict, Field, field_validator
+from pydantic_core import PydanticSerializationError, to_json
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
@@ -76,7 +77,7 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
 
 
 class RequestBody(BaseModel):
-    """A request's body; unknown fields are refused, and texts that the database cannot keep whole."""
+    """A request's body; unknown fields are refused, and texts that cannot be kept or answered whole."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -85,6 +86,17 @@ class RequestBody(BaseModel):
     def _without_nul(cls, value: Any) -> Any:
         if isinstance(value, str) and "\0" in value:
             raise ValueError("The character U+0000 cannot be kept; leave it out")
+        return value
+
+    @field_validator("*")
+    @classmethod
+    def _without_half_characters(cls, value: Any) -> Any:
+        # A gait document is looked at where it is read, which names the place.
+        if not isinstance(value, dict):
+            try:
+                to_json(value, fallback=str)
+            except PydanticSerializationError:
+                raise ValueError("A text holds half a character (a lone surrogate); type it again") from None
         return value
 
 

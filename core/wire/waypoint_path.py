@@ -52,7 +52,7 @@ def cut_parts(waypoints: Waypoints, bound: float) -> NDArray[np.int64]:
     """(count,) into how many equal parts the move to each waypoint is cut, so that a bound is kept.
 
     A robot may be the firmware's threshold off where a move begins. A part is longer than that threshold,
-    below which nothing moves.
+    below which nothing moves, and at most `SAME` longer than the bound allows (0.04 ms of deafness).
 
     Args:
         waypoints: whose moves are cut.

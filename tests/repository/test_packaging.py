@@ -17,7 +17,7 @@ import pytest
 import footfall
 from tests.support.studio_process import PROGRAM, PROJECT, running_studio
 
-NO_SOURCE = (".git", ".venv", ".hypothesis", "build", "*.egg-info", "__pycache__", ".*_cache")
+NO_SOURCE = (".git", ".venv", "node_modules", ".hypothesis", "build", "*.egg-info", "__pycache__", ".*_cache")
 
 
 def run_quietly(*words: str) -> None:

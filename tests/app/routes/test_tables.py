@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -119,3 +120,14 @@ def test_a_pose_that_a_table_cannot_take_is_refused(
 ) -> None:
     refused = client.post(POSE, json={"document": content(gait), "strokes_mm": strokes})
     assert (refused.status_code, refused.json()["where"]) == (422, where)
+
+
+@pytest.mark.parametrize("field", ["feet", "link"])
+def test_half_a_character_is_refused_with_a_sentence(client: TestClient, field: str) -> None:
+    table = content("walk-manual-0")["segment_table"]
+    table[field] = [["Zero A\ud800"]] + table["feet"][1:]
+    sent = json.dumps({"table": table}).encode()
+    answer = client.post(REPAIRS, content=sent, headers={"Content-Type": "application/json"})
+    assert answer.status_code == 422
+    assert "half a character" in answer.json()["error"]
+    assert "table" in answer.json()["error"] or answer.json()["where"] == "table"

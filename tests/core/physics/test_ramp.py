@@ -15,7 +15,7 @@ from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.ramp import TURN, MotorTrajectory, motor_trajectory, ramp_shares
 from core.physics.variations import variations
 from core.robot.model import load_robot
-from core.wire.robot_time import ARRIVAL_THRESHOLD, PUBLISHED, RAMP_SPEED, ramp_time
+from core.wire.robot_time import ARRIVED, PUBLISHED, RAMP_SPEED, ramp_time
 from core.wire.waypoints import Waypoints
 
 MODEL = load_robot("deltawalker")
@@ -72,7 +72,7 @@ def test_motors_keep_their_speed_and_end_within_the_threshold(places: list[float
     speeds = np.abs(np.diff(made.strokes, axis=0)) / TURN
     assert speeds.max(initial=0.0) <= share * RAMP_SPEED + 1e-9
     wanted = np.array(places)[:, None, None] / 1000
-    assert np.abs(made.strokes[made.arrivals] - wanted).max() <= ARRIVAL_THRESHOLD + 1e-9
+    assert np.abs(made.strokes[made.arrivals] - wanted).max() <= ARRIVED + 1e-9
     assert len(made.targets) == len(made.strokes) == made.arrivals[-1] + 1
 
 

@@ -219,6 +219,12 @@ function feetList() {
   };
 }
 
+/** The sentence under a live picture. */
+const standingText = ({ use, setup }) =>
+  use === "under" && !setup
+    ? "This camera has no setup, so the studio cannot find the feet."
+    : "This is the live picture of the camera.";
+
 /** Opens a camera's live picture; of one under the platform with the feet that are found. */
 export const watchCamera = attempt(async (page, camera) => {
   const isOld = page.begin();
@@ -226,15 +232,12 @@ export const watchCamera = attempt(async (page, camera) => {
   if (isOld()) return;
   const [feet, words] = [feetList(), h("p")];
   const stage = openStage(cameraSource(camera), 0, lost);
-  const standing =
-    camera.use === "under" && !camera.setup
-      ? "This camera has no setup, so the studio cannot find the feet."
-      : "This is the live picture of the camera.";
+  let newest = camera;
 
   function lost(why) {
     words.className = why === null ? "quiet" : "why";
     words.dataset.toneText = why === null ? "" : "caution";
-    setText(words, why ?? standing);
+    setText(words, why ?? standingText(newest));
     if (why === null) return;
     stage.picture.drawing.replaceChildren();
     feet.show(null);
@@ -243,8 +246,10 @@ export const watchCamera = attempt(async (page, camera) => {
   const end = page.store.watch(
     ({ cameras }) => [cameras],
     ({ cameras }) => {
-      const now = cameras?.find(({ id }) => id === camera.id);
-      stage.away(now?.state === "unplugged" ? now.sentence : null);
+      newest = cameras?.find(({ id }) => id === camera.id) ?? newest;
+      stage.away(newest.state === "unplugged" ? newest.sentence : null);
+      // Its use may have been changed just before.
+      if (words.className === "quiet") setText(words, standingText(newest));
     },
   );
   if (kept) {

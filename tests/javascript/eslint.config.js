@@ -1,4 +1,4 @@
-/** Rules for the JavaScript of the page, of exports and of atlases; lines are as wide as those of the Python code. */
+/** Rules for the JavaScript of the page, of exports and of atlases; lines are as wide as Python's. */
 
 import js from "@eslint/js";
 import globals from "globals";

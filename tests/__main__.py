@@ -35,7 +35,7 @@ ENDING = ("--durations=30", "--durations-min=1")
 """Has a run say which tests were the slowest."""
 LANES = ("-n", "2", "--dist", "loadfile", "--no-loadscope-reorder", *ENDING)
 """Two files at a time, in the order of `conftest.py`; the tests of one file share its studio and its page."""
-UNHURRIED = ("tests/core",)
+UNHURRIED = ("tests/core", "tests/solver_jobs/live", "tests/solver_jobs/nlp", "tests/solver_jobs/pose_gaits")
 """Folders of tests without a process or a deadline, which may run beside one that keeps to the clock."""
 
 NOTHING_CHOSEN = 5

@@ -63,6 +63,7 @@ print(plan.status, ff.check(plan).passed, ff.__version__)
 """
 
 
+@pytest.mark.heavy
 def test_import_footfall_works_from_the_wheel_beside_files_of_the_same_names(
     installed: Path, tmp_path: Path
 ) -> None:

@@ -21,6 +21,7 @@ def law_seconds(law: TimeLaw, moves: np.ndarray) -> float:
     return float(law.move_seconds(moves.max(axis=1), far_motors(moves)).sum())
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("profile", ProfileName)
 def test_random_moves_take_the_time_of_the_law(profile: ProfileName) -> None:
     law = LAWS[profile.value]

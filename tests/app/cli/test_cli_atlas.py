@@ -105,6 +105,7 @@ def test_bad_input_is_refused_with_a_sentence(
     assert not (tmp_path / "a.sqlite").exists()
 
 
+@pytest.mark.heavy
 def test_a_run_that_is_interrupted_says_what_it_keeps(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, space: Path, tmp_path: Path
 ) -> None:
@@ -134,7 +135,7 @@ def count_of(path: Path, table: str = "gaits") -> int:
         connection.close()
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_run_that_is_killed_goes_on_and_ends_with_the_same_hash(tmp_path: Path) -> None:
     whole, killed = tmp_path / "whole.sqlite", tmp_path / "killed.sqlite"
     count = ("--count", "800")
@@ -170,7 +171,7 @@ def test_a_run_that_is_killed_goes_on_and_ends_with_the_same_hash(tmp_path: Path
     assert answer["solved"] == expected["solved"]
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_cluster_of_which_a_worker_is_killed_gives_the_same_hash(tmp_path: Path) -> None:
     alone, cluster = tmp_path / "alone.sqlite", tmp_path / "cluster.sqlite"
     count = ("--count", "800", "--workers", "2")

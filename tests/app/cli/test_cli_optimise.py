@@ -80,6 +80,7 @@ def test_rotation_turns_the_robot_within_its_motors(
     assert speeds.max() <= 0.015 + 1e-4
 
 
+@pytest.mark.heavy
 def test_a_closing_stance_that_a_file_sets_is_kept(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
@@ -188,6 +189,7 @@ def test_what_does_not_fit_is_refused(
     assert sentence in answer["error"]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [

@@ -60,6 +60,7 @@ def newest(service: RunService) -> dict[str, Any]:
     return run
 
 
+@pytest.mark.heavy
 def test_a_run_of_a_file_is_kept_where_the_studio_lists_it(
     capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot, service: RunService
 ) -> None:
@@ -108,6 +109,7 @@ def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_
     assert json.loads(second.stdout)["reached"] == COUNT
 
 
+@pytest.mark.heavy
 def test_a_send_that_is_killed_leaves_its_run_interrupted_with_what_had_passed(
     way: Path, robot: EmulatedRobot, service: RunService
 ) -> None:

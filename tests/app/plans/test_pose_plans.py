@@ -63,6 +63,7 @@ def test_the_note_says_how_fast_a_gait_goes_or_turns(gait_id: str, pace: str) ->
     assert f"on the robot, {pace};" in make_plan(library()[gait_id].gait, None, never_solve).note
 
 
+@pytest.mark.heavy
 def test_json_keeps_them(solved: Gait) -> None:
     content = json.loads(json.dumps(gait_content(solved)))
     again = gait_from_content(content)
@@ -73,6 +74,7 @@ def test_json_keeps_them(solved: Gait) -> None:
         gait_from_content(content)
 
 
+@pytest.mark.heavy
 def test_a_change_adapts_the_poses_and_asks_for_new_ones(solved: Gait) -> None:
     longer = replace(solved, step=heading_step(solved.orientation, 0.012))
     changed, notice = normalise(solved, longer)

@@ -105,6 +105,7 @@ def test_each_part_is_optimised_for_itself(studio: StudioProcess) -> None:
     assert "no part to optimise" in again.content["error"]
 
 
+@pytest.mark.heavy
 def test_a_sequence_is_sent_like_any_gait(studio: StudioProcess, robot: EmulatedRobot) -> None:
     parts = [{"gait": "s-gait"}, {"gait": "rotate"}]
     path = (
@@ -151,6 +152,7 @@ def test_only_a_sequence_takes_gaits_over(studio: StudioProcess) -> None:
     assert "is no sequence" in answer.content["error"]
 
 
+@pytest.mark.heavy
 def test_the_command_line_checks_and_exports_a_sequence(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

@@ -120,6 +120,7 @@ def test_a_search_that_is_ended_shows_only_its_end(service: RemedyService) -> No
     assert after[-1] is None
 
 
+@pytest.mark.heavy
 def test_a_drawing_is_finished_with_one_swing_a_foot() -> None:
     model = load_robot("deltawalker")
     question = completion_question(OVERLAPPING, model)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import struct
 
+import pytest
+
 from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.studio_process import StudioProcess, wait_for
 
 SPEED = 5.0
 
 
+@pytest.mark.heavy
 def test_the_measured_robot_is_there_while_a_run_is_on(studio: StudioProcess, robot: EmulatedRobot) -> None:
     refused = studio.ask("GET", "/api/robot/poses")
     assert refused.status == 409

@@ -60,6 +60,7 @@ def test_a_run_from_a_later_pose_is_shown_and_sends_the_rest(
     assert run["plan_time"] == pytest.approx(whole["beginnings"][-1]["time"])
 
 
+@pytest.mark.heavy
 def test_a_gait_that_ends_as_it_begins_is_repeated(
     studio: StudioProcess, robot: EmulatedRobot, walk: dict[str, Any]
 ) -> None:

@@ -34,6 +34,7 @@ def test_the_stop_time_of_a_run_from_a_later_pose_holds_on_its_way_to_the_start_
     assert stated >= LONGEST_SCAN + ramp_time((longest_mm + 1.0) / 1000.0)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("profile", [ProfileName.SLOW, ProfileName.PUBLISHED])
 def test_motors_stand_within_the_stop_time_that_is_stated(profile: ProfileName) -> None:
     plan = make_plan([[float(h)] * 12 for h in (2.0, 5.7, 9.4, 5.7, 2.0, 5.7)])

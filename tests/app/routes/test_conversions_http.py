@@ -89,6 +89,7 @@ def test_there_and_back_is_two_undo_steps_and_the_same_document(studio: StudioPr
     assert view(studio, gait)["document"] == before
 
 
+@pytest.mark.heavy
 def test_a_new_gait_is_made_of_the_document_and_has_its_motion(studio: StudioProcess, gait: str) -> None:
     last = studio.lines(f"/api/gaits/{gait}/faster", {})[-1]
     made = studio.ask("POST", "/api/gaits", {**last["document"], "name": "Quick"})

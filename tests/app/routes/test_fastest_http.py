@@ -28,6 +28,7 @@ def lines(studio: StudioProcess, wanted: dict[str, Any]) -> Iterator[dict[str, A
             yield json.loads(line)
 
 
+@pytest.mark.heavy
 def test_prices_that_come_with_the_program_are_there_at_once(studio: StudioProcess) -> None:
     first = next(lines(studio, ASKED))
     options = first["options"]
@@ -96,7 +97,7 @@ def searched(studio: StudioProcess, **asked: Any) -> tuple[dict[str, Any], list[
     return ended["result"], ended["tried"]
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_search_ranks_every_order(studio: StudioProcess) -> None:
     result, tried = searched(studio)
     assert (result["orders"], result["complete"], result["front"]) == (6, True, [])

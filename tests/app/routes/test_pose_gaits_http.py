@@ -95,6 +95,7 @@ def test_a_search_is_cancelled_and_begun_again(studio: StudioProcess, gait: str)
     assert studio.ask("POST", f"/api/gaits/{gait}/undo").content["plan"]["source"] == "poses"
 
 
+@pytest.mark.heavy
 def test_what_is_out_of_reach_says_why_and_is_not_sent(studio: StudioProcess, gait: str) -> None:
     document = solved(studio, gait)["document"]
     answer = studio.ask("PUT", f"/api/gaits/{gait}", {**document, "step": [0.15, 0.0, 0.0]})

@@ -55,6 +55,7 @@ def test_a_simulation_has_the_figures_of_the_command(job: dict[str, Any]) -> Non
     assert job["result"]["fell"] is False
 
 
+@pytest.mark.heavy
 def test_the_kept_simulation_lies_on_the_plans_time_axis(studio: StudioProcess, job: dict[str, Any]) -> None:
     simulation = studio.ask("GET", f"/api/simulations/{job['motion']}").content
     plan = studio.ask("GET", f"/api/gaits/{GAIT}/view").content["plan"]

@@ -75,6 +75,7 @@ print(ff.fastest("c-gait", step=0.005).status)
     ]  # fmt: skip
 
 
+@pytest.mark.heavy
 def test_import_is_quick_and_loads_no_solver(tmp_path: Path) -> None:
     text = """
 import sys, time

@@ -104,6 +104,7 @@ def test_bad_input_is_refused_in_a_sentence(
     assert isinstance(refusal.value, ff.FootfallError)
 
 
+@pytest.mark.heavy
 def test_strokes_of_ones_own_are_checked_and_simulated() -> None:
     plan = plan_of_walk()
     again = ff.plan(plan.waypoints)

@@ -165,6 +165,7 @@ def test_a_socket_that_opens_behind_another_request_keeps_its_place() -> None:
         assert is_open(line)
 
 
+@pytest.mark.heavy
 def test_deadlines_go_on_after_an_error_while_they_were_looked_at(
     soon: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -203,6 +203,7 @@ def test_the_end_of_the_studio_stops_a_run_first(tmp_path: Path) -> None:
     assert state in ("stopping", "stopped", "lost", "fault")
 
 
+@pytest.mark.heavy
 def test_results_edits_and_the_job_list_survive_a_restart(tmp_path: Path) -> None:
     with running_studio(tmp_path) as studio:
         optimised(studio, "walk")
@@ -239,6 +240,7 @@ def test_an_approved_live_plan_is_still_approved_after_a_restart(tmp_path: Path)
         assert (undone["plan"]["hash"], undone["approval"]) == (plan["hash"], None)
 
 
+@pytest.mark.heavy
 def test_a_busy_port_is_exit_2_and_names_the_option(tmp_path: Path) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))

@@ -135,6 +135,7 @@ def test_no_message_leaves_a_line_in_the_log(studio: StudioProcess, path: str) -
     assert log_of(studio) == ""
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("path", ROUTES)
 @given(messages=st.lists(MESSAGES, max_size=4))
 def test_neither_do_any_others(studio: StudioProcess, path: str, messages: list[Message]) -> None:

@@ -88,6 +88,7 @@ def test_there_is_a_folder_and_it_has_much_of_everything(folder: Unpacked) -> No
     assert list((folder.data / "set-aside").iterdir())
 
 
+@pytest.mark.heavy
 def test_the_database_is_whole_after_it_was_opened(opened: Opened) -> None:
     assert damage_of(opened.data / "studio.sqlite3", is_open=True) is None
     assert opened.client.get("/api/health")["storage"] == {"damaged": False, "sentence": None}

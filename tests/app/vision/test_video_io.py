@@ -46,6 +46,7 @@ def test_feet_are_found_within_half_a_millimetre(found: VideoTrack) -> None:
     assert np.quantile(away[~found.track.filled], 0.99) <= 0.001
 
 
+@pytest.mark.heavy
 def test_a_hidden_foot_is_a_marked_gap(found: VideoTrack) -> None:
     assert (HIDDEN.foot, HIDDEN.first, HIDDEN.last - 1) in found.track.gaps
     assert not found.false[HIDDEN.first : HIDDEN.last].any()

@@ -89,6 +89,7 @@ def test_a_search_shows_its_table_is_cancelled_and_found_again_in_jobs(page: Pag
     expect(dialog.get_by_role("group", name="Foot order").locator(":checked")).to_have_count(1)
 
 
+@pytest.mark.heavy
 def test_a_robot_with_other_legs_has_orders_of_its_own(page: Page) -> None:
     dialog = open_dialog(page)
     robot = dialog.get_by_label("Robot of the fastest gait")

@@ -159,6 +159,7 @@ def test_pointing_at_a_way_out_shows_where_it_leads(page: Page, studio: StudioPr
     wait_for(lambda: studio.document("s-gait")["step"] == before["step"], "nothing but the step was edited")
 
 
+@pytest.mark.heavy
 def test_a_drawing_that_ends_in_the_air_is_offered_ways_out(page: Page, studio: StudioProcess) -> None:
     choose(page, "Amble 10 mm")
     grid = page.get_by_role("grid", name="Footfall timeline")

@@ -112,6 +112,7 @@ def show(page: Page, *names: str) -> None:
     page.keyboard.press("Escape")
 
 
+@pytest.mark.heavy
 def test_three_strips_are_shown_at_first_and_a_choice_outlasts_a_reload(page: Page) -> None:
     expect(page.locator(".strip:visible")).to_have_count(3)
     show(page, "Motor speeds", "Strokes")

@@ -250,6 +250,7 @@ def test_words_that_changed_while_one_types_are_there_afterwards(page: Page, stu
     assert "Step" in table(studio, gait)["definitions"]["xy"]
 
 
+@pytest.mark.heavy
 def test_a_drawing_goes_into_the_table_or_the_page_says_why_not(page: Page, studio: StudioProcess) -> None:
     gait = copy_of(studio, WALK, "Drawing")
     choose(page, "Drawing")
@@ -270,6 +271,7 @@ def test_a_drawing_goes_into_the_table_or_the_page_says_why_not(page: Page, stud
     expect(cell(page, 5, 2)).to_have_text("Lift A")
 
 
+@pytest.mark.heavy
 def test_a_table_is_made_of_a_drawing_with_room_for_steps(page: Page, studio: StudioProcess) -> None:
     gait = copy_of(studio, "walk", "Making")
     choose(page, "Making")

@@ -57,6 +57,7 @@ def undo(page: Page) -> Locator:
     return page.get_by_role("button", name=re.compile("^Undo"))
 
 
+@pytest.mark.heavy
 def test_times_out_of_range_stay_with_the_reason(page: Page, studio: StudioProcess, tour: str) -> None:
     times = page.get_by_label("Times of part 1")
     for typed, sentence in (
@@ -73,6 +74,7 @@ def test_times_out_of_range_stay_with_the_reason(page: Page, studio: StudioProce
     assert studio.ask("GET", f"/api/gaits/{tour}").content["sequence"][0]["times"] == 3
 
 
+@pytest.mark.heavy
 def test_a_sequence_is_made_from_the_shown_gait_and_grows(page: Page, studio: StudioProcess) -> None:
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Rotate 15°")).click()
     expect(page.get_by_label("Gait name")).to_have_value("Rotate 15°")
@@ -149,6 +151,7 @@ def test_delete_takes_a_part_out_and_the_last_one_stays(page: Page, studio: Stud
     expect(last).to_have_attribute("title", re.compile("at least one part"))
 
 
+@pytest.mark.heavy
 def test_a_press_meets_its_button_while_another_plan_comes(
     page: Page, studio: StudioProcess, tour: str
 ) -> None:
@@ -228,6 +231,7 @@ def trouble(page: Page) -> Locator:
     return page.locator("#sequence").get_by_role("alert").filter(has_text=re.compile("Part|sequence"))
 
 
+@pytest.mark.heavy
 def test_a_part_with_another_sample_time_is_resampled_in_one_click(
     page: Page, studio: StudioProcess, tour: str
 ) -> None:

@@ -30,6 +30,7 @@ def line(page: Page, name: str) -> Locator:
     return page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile(f"^{name}"))
 
 
+@pytest.mark.heavy
 def test_the_starters_are_open_and_the_examples_folded_until_somebody_opens_them(page: Page) -> None:
     expect(heading(page, "For this robot")).to_have_attribute("aria-expanded", "true")
     examples = heading(page, "Examples")

@@ -17,8 +17,8 @@ from tests.support.studio_process import StudioProcess, running_studio, wait_for
 
 pytestmark = pytest.mark.heavy
 SPEED = 5.0
-SIZES = ((1280, 720, 1.0), (1440, 900, 1.0), (1920, 1080, 1.0), (820, 1180, 1.0), (640, 360, 2.0))
-"""Width and height in CSS px, and device pixels a CSS px: the last is 1280 × 720 at 200 %."""
+SIZES = {"desk": ((1280, 720), (1440, 900), (1920, 1080)), "tablet": ((820, 1180),), "zoomed": ((640, 360),)}
+"""Widths and heights in CSS px of each kind of screen; the last one is 1280 × 720 at 200 %."""
 
 
 @pytest.fixture
@@ -33,9 +33,15 @@ def studio(tmp_path: Path, robot: EmulatedRobot) -> Iterator[StudioProcess]:
         yield running
 
 
-@pytest.fixture(params=SIZES, ids=lambda size: f"{size[0]}x{size[1]}")
-def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest) -> Iterator[Page]:
-    width, height, scale = request.param
+@pytest.fixture(params=SIZES)
+def screen(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+@pytest.fixture
+def page(browser: Browser, studio: StudioProcess, screen: str) -> Iterator[Page]:
+    width, height = SIZES[screen][0]
+    scale = 2.0 if screen == "zoomed" else 1.0
     context = browser.new_context(
         viewport={"width": width, "height": height}, device_scale_factor=scale, reduced_motion="reduce"
     )
@@ -65,13 +71,20 @@ def choose(page: Page, name: str) -> None:
         page.get_by_label("Find a gait").fill("")
 
 
-def test_no_label_is_cut_and_no_two_texts_overlap(page: Page, studio: StudioProcess, tmp_path: Path) -> None:
+def test_no_label_is_cut_and_no_two_texts_overlap(
+    page: Page, studio: StudioProcess, screen: str, tmp_path: Path
+) -> None:
+    usual, *others = [{"width": width, "height": height} for width, height in SIZES[screen]]
     # Places do not depend on the colours: both are looked at in one size only.
-    is_first = page.viewport_size == {"width": SIZES[0][0], "height": SIZES[0][1]}
-    schemes: tuple[Scheme, ...] = ("light", "dark") if is_first else ("light",)
+    schemes: tuple[Scheme, ...] = ("light", "dark") if screen == "desk" else ("light",)
 
     def look(state: str) -> None:
         require_whole_labels(page, state, tmp_path, schemes)
+        for size in others:
+            page.set_viewport_size(size)
+            require_whole_labels(page, f"{state} {size['width']}x{size['height']}", tmp_path, ("light",))
+        if others:
+            page.set_viewport_size(usual)
 
     look("design")
     for name in ("Jobs", "Runs", "Trials", "Gaits"):
@@ -133,6 +146,7 @@ def test_no_label_is_cut_and_no_two_texts_overlap(page: Page, studio: StudioProc
     look("segment table")
 
 
+@pytest.mark.parametrize("screen", ["desk"])
 def test_a_cut_and_an_overlap_would_be_found(page: Page) -> None:
     page.evaluate("document.querySelector('#save').style.cssText = 'width: 20px; overflow: hidden'")
     page.evaluate("document.querySelector('#tab-check').style.marginLeft = '-180px'")

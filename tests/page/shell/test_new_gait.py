@@ -46,6 +46,7 @@ def document(studio: StudioProcess, name: str) -> dict[str, Any]:
     return content
 
 
+@pytest.mark.heavy
 def test_a_new_gait_is_made_by_keyboard_alone_for_a_robot_with_six_legs(
     page: Page, studio: StudioProcess
 ) -> None:

@@ -27,6 +27,7 @@ def spliced(first: int, last: int, *inside: str) -> tuple[str, ...]:
     return tuple(row[: first - 1] + text + row[last:] for row, text in zip(FOUR, inside, strict=True))
 
 
+@pytest.mark.heavy
 def test_a_number_is_asked_for_shown_on_the_timeline_and_is_one_named_edit(timeline: TimelinePage) -> None:
     gait = timeline.open("Amount")
     after = painted(FOUR, 1, 5, 10, "0")
@@ -177,6 +178,7 @@ def test_what_a_locked_cell_forbids_says_which_and_does_nothing(timeline: Timeli
     assert timeline.feet(gait) == FOUR
 
 
+@pytest.mark.heavy
 def test_cells_are_copied_as_text_and_pasted_where_they_fit(timeline: TimelinePage) -> None:
     page = timeline.page
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])

@@ -23,6 +23,7 @@ def is_selected(timeline: TimelinePage, start: tuple[int, int], end: tuple[int, 
     wait_for(lambda: timeline.selected() == rectangle(start, end), f"{start} to {end} are selected")
 
 
+@pytest.mark.heavy
 def test_shift_and_arrows_select_from_the_focused_cell_and_escape_drops_it(timeline: TimelinePage) -> None:
     timeline.open("Keys select")
     timeline.cell(2, 9).focus()

@@ -69,6 +69,7 @@ def test_a_drag_with_shift_locks_a_rectangle_and_from_a_locked_cell_unlocks(time
     timeline.becomes(gait, *painted(FOUR, 1, 2, 2, "0"))
 
 
+@pytest.mark.heavy
 def test_k_locks_the_focused_cell_or_the_selection_and_paint_passes_it_over(timeline: TimelinePage) -> None:
     gait = timeline.open("K locks")
     timeline.cell(3, 3).focus()

@@ -99,6 +99,7 @@ def test_gait_k_is_the_same_however_many_are_drawn(space: AtlasSpace) -> None:
     assert len({point.step_x for point in many}) == 40
 
 
+@pytest.mark.heavy
 def test_solved_gaits_are_confirmed_and_are_what_was_asked(space: AtlasSpace) -> None:
     points = drawn_points(space, 0, 40)
     rows = {row.number: row for row in evaluated(space, 0, 40)}
@@ -118,6 +119,7 @@ def test_solved_gaits_are_confirmed_and_are_what_was_asked(space: AtlasSpace) ->
         assert gait.bodies[:, 2].mean() == pytest.approx(point.height, abs=0.0021)
 
 
+@pytest.mark.heavy
 def test_rows_do_not_depend_on_how_they_are_grouped(space: AtlasSpace) -> None:
     points = drawn_points(space, 100, 24)
     together = evaluated_points(space, points)

@@ -51,6 +51,7 @@ def unknowns_of(linearisation: Linearisation, motion: Trajectory) -> Floats:
     return x
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("number", range(24))
 def test_motions_of_the_exact_tier_lie_within_the_rows_around_the_discs(number: int) -> None:
     gait = edited_gait(3, number).gait

@@ -140,6 +140,7 @@ def test_feet_are_named_in_the_gaits_own_direction() -> None:
     assert "with foot 2 in the air" in " ".join(turned.explanation)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("gait", ["amble", "s-gait", "c-gait"])
 def test_what_it_proves_infeasible_the_exact_tier_cannot_solve(gait: str) -> None:
     problem = gait_problem(gait, 0.020, Workspace.CYLINDER)

@@ -89,6 +89,7 @@ def test_motor_limits_hold_while_the_body_turns() -> None:
     confirmed(asked(yaw=0.2, motor_speed=0.015, motor_acceleration=0.025, margin=0.003, friction=0.5))
 
 
+@pytest.mark.heavy
 def test_what_motors_cannot_do_is_named_with_the_foot() -> None:
     result = solve_motion(asked(motor_speed=0.001))
     assert result.status is SolveStatus.INFEASIBLE
@@ -133,6 +134,7 @@ def test_the_end_may_be_higher_than_the_start() -> None:
     assert motion.body_world[-1, 2] - motion.body_world[0, 2] == pytest.approx(0.0025)
 
 
+@pytest.mark.heavy
 def test_a_lack_names_feet_and_knots_of_the_gaits_own_direction() -> None:
     turns = 3
     problem = asked("amble", step=0.025, workspace=Workspace.CYLINDER, margin=0.003)

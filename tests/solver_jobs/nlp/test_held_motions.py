@@ -90,6 +90,7 @@ def test_the_live_tier_solves_it_and_every_rule_passes(name: str) -> None:
     assert verdict.passed
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", ["hexapod, two up, cycle", "6 to 4", "4 to 6", "quadruped, one up"])
 def test_the_exact_tier_solves_it_too(name: str) -> None:
     problem = problem_of(LIVE[name])

@@ -31,6 +31,7 @@ def fastest_walk() -> TimingResult:
     return fastest_timing(limited_walk())
 
 
+@pytest.mark.heavy
 def test_the_fastest_walk_keeps_every_limit_in_less_than_half_the_time() -> None:
     timing = fastest_walk()
     assert timing.status is SolveStatus.SOLVED, timing.explanation
@@ -65,6 +66,7 @@ def test_the_same_motion_hurried_by_a_tenth_breaks_a_limit() -> None:
     assert solve_motion(hurried).status is SolveStatus.INFEASIBLE
 
 
+@pytest.mark.heavy
 def test_a_step_too_long_for_the_drawn_phases_gets_longer_ones() -> None:
     problem = replace(gait_problem("walk", 0.032, Workspace.STROKE), model=BARE)
     assert solve_motion(problem).status is SolveStatus.INFEASIBLE
@@ -73,6 +75,7 @@ def test_a_step_too_long_for_the_drawn_phases_gets_longer_ones() -> None:
     assert check_motion(timing.problem, timing.trajectory).confirmed
 
 
+@pytest.mark.heavy
 def test_what_no_timing_makes_possible_is_explained() -> None:
     timing = fastest_timing(replace(gait_problem("walk", 0.060, Workspace.STROKE), model=BARE))
     assert timing.status is SolveStatus.INFEASIBLE
@@ -148,6 +151,7 @@ def test_a_usable_timeline_is_the_shortest_that_the_exact_tier_solves() -> None:
     assert check_motion(problem, timing.usable.trajectory).confirmed
 
 
+@pytest.mark.heavy
 def test_a_cancelled_search_gives_no_timeline() -> None:
     timing = made_usable(fastest_walk(), lambda iterate: False)
     assert timing.status is SolveStatus.CANCELLED

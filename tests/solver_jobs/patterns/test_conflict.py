@@ -99,6 +99,7 @@ def explained(request: pytest.FixtureRequest) -> tuple[str, PatternProblem, Expl
     return request.param, problem, explain(problem)
 
 
+@pytest.mark.heavy
 def test_the_clauses_conflict_and_each_is_needed(explained: tuple[str, PatternProblem, Explanation]) -> None:
     _, problem, why = explained
     assert Probe().conflict(problem, why.clauses)

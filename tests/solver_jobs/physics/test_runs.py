@@ -120,6 +120,7 @@ def tipping_walk(clearance: float) -> SimulationProblem:
     return planned(MODEL, plan_waypoints(MODEL, motion), motion)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("clearance", "rule"), [(0.003, "simulated_tilt"), (0.001, "simulated_swing")])
 def test_a_margin_of_5_mm_too_little_is_reported_however_low_feet_are(clearance: float, rule: str) -> None:
     problem = tipping_walk(clearance)

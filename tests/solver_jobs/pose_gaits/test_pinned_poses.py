@@ -50,6 +50,7 @@ def test_the_body_is_where_it_was_put_and_the_rest_goes_along(free: PoseGait) ->
     assert np.abs(result.gait.bodies - free.bodies)[POSE].max() > 1e-5
 
 
+@pytest.mark.heavy
 def test_the_check_sees_a_pose_that_is_not_where_it_was_put(free: PoseGait) -> None:
     moved = replace(free, problem=pinned(free, 0.0, 0.002))
     limits = {finding.limit: finding for finding in check_poses(moved).findings}

@@ -48,6 +48,7 @@ def test_the_c_gait_makes_three_millimetres_a_second_in_mid_walk(c_gait: PoseGai
     assert check.figures.largest_move <= c_gait.problem.largest_move + 1e-7
 
 
+@pytest.mark.heavy
 def test_a_walk_from_the_standard_stance_to_rest_passes_every_rule() -> None:
     result = solved(cycles=1, step=0.010)
     assert result.status is SolveStatus.SOLVED
@@ -60,6 +61,7 @@ def test_a_walk_from_the_standard_stance_to_rest_passes_every_rule() -> None:
     assert verdict.passed, verdict.findings
 
 
+@pytest.mark.heavy
 def test_a_direction_is_the_same_gait_turned(c_gait: PoseGait) -> None:
     turned = solved((2, 3, 4, 1), np.pi / 2)
     assert turned.gait is not None
@@ -69,6 +71,7 @@ def test_a_direction_is_the_same_gait_turned(c_gait: PoseGait) -> None:
     assert travel[1] > 0.04
 
 
+@pytest.mark.heavy
 def test_an_even_turn_is_kept() -> None:
     result = solved(turn=0.1, step=0.02)
     assert result.status is SolveStatus.SOLVED

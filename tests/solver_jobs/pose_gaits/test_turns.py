@@ -31,7 +31,7 @@ def swaying() -> PoseGait:
     return solved(step=0.02, sway=float(np.radians(5.0)))
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_the_fastest_turn_on_the_spot_is_far_faster_than_a_given_one() -> None:
     fastest = solved(step=0.0, turn=1.0, free_turn=True)
     assert np.degrees(fastest.turn) > 70.0
@@ -49,6 +49,7 @@ def test_a_turn_that_is_too_far_is_refused_with_the_farthest() -> None:
     assert "A turn of 114.6° a cycle (--turn) is too far" in result.explanation[0]
 
 
+@pytest.mark.heavy
 def test_a_curve_goes_along_its_heading_half_way() -> None:
     turn = float(np.radians(-20.0))
     curve = solved(step=0.02, turn=turn)
@@ -57,6 +58,7 @@ def test_a_curve_goes_along_its_heading_half_way() -> None:
     assert curve.headings[-1] - curve.headings[0] == pytest.approx(turn)
 
 
+@pytest.mark.heavy
 def test_a_swaying_heading_leaves_an_even_turn_and_comes_back(swaying: PoseGait) -> None:
     away = np.degrees(np.abs(swaying.headings))
     assert 0.5 < away.max() <= 5.0 + 1e-6

@@ -143,6 +143,7 @@ def test_the_better_a_remedy_keeps_what_was_asked_the_earlier_it_comes() -> None
     assert margins == sorted(margins, reverse=True)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("number", range(12))
 def test_random_drawings_have_a_remedy(number: int) -> None:
     assert remedies_of(random_drawing(5, number).gait)

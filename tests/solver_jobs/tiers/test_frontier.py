@@ -51,6 +51,7 @@ def test_shoes_end_the_walk_s_step_where_a_foot_comes_up_to_its_neighbour() -> N
     assert "Shoes need" in found.explanation[0]
 
 
+@pytest.mark.heavy
 def test_a_margin_and_the_cylinder_shorten_the_step() -> None:
     wide, narrow, safe = (
         FrontierSearch(gait, MODEL, exact=False).run().reach
@@ -82,6 +83,7 @@ def test_longer_phases_get_further_where_foot_speed_is_the_limit() -> None:
     assert found.gait.timeline == drawn_timeline(found.gait)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_a_rotation_is_asked_how_far_it_turns(sense: float) -> None:
     rotate = replace(gait_with("rotate"), step=(0.0, 0.0, sense * 0.2))
@@ -92,6 +94,7 @@ def test_a_rotation_is_asked_how_far_it_turns(sense: float) -> None:
     assert found.gait.timeline == with_return(found.gait, MODEL).timeline
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("options", "family"),
     [({"margin": 0.020}, "body_torque"), ({"motor_speed": 0.0005}, "motor_speed")],

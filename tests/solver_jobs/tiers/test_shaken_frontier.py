@@ -10,6 +10,7 @@ from solver_jobs import FrontierSearch
 from tests.support.shaken import shaken
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("gait_id", ["walk", "c-gait", "s-gait", "hexapod-wave"])
 def test_rounding_chooses_neither_the_step_nor_what_limits_it(gait_id: str) -> None:
     gait = library()[gait_id].gait

@@ -85,6 +85,7 @@ def test_a_closed_solver_says_so() -> None:
     assert (search.remedies, search.complete) == ((), False)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("gait", "kinds"),
     [

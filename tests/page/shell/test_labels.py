@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, ViewportSize, expect
 
 from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.page.drawers import open_drawer
@@ -74,7 +74,7 @@ def choose(page: Page, name: str) -> None:
 def test_no_label_is_cut_and_no_two_texts_overlap(
     page: Page, studio: StudioProcess, screen: str, tmp_path: Path
 ) -> None:
-    usual, *others = [{"width": width, "height": height} for width, height in SIZES[screen]]
+    usual, *others = [ViewportSize(width=width, height=height) for width, height in SIZES[screen]]
     # Places do not depend on the colours: both are looked at in one size only.
     schemes: tuple[Scheme, ...] = ("light", "dark") if screen == "desk" else ("light",)
 

@@ -18,7 +18,8 @@ from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, expor
 from app.export.import_gait import gait_of_recording, read_gait
 from app.export.source import Exportable, exportable_file, exportable_plan, recording_of_npz
 from app.export.trajectory_files import companion_path, read_text, read_whole_text
-from app.plans.plan import Plan, make_plan
+from app.plans.make_plan import make_plan
+from app.plans.plan import Plan
 from app.plans.sequence_plan import sequence_plan
 from app.store.gait_files import GaitFiles, default_data_folder
 from app.store.plain_file import write_atomically
@@ -140,9 +141,9 @@ def _plan(gait: Gait, method: Method) -> Plan:
         gait = with_poses(gait, poses_of(gait))
     elif gait.segment_table is None and gait.recorded is None and method is Method.NLP:
         verified = optimise(gait)
-        if verified.status is SolveStatus.SOLVED:
+        if verified.has_motion:
             result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
-        else:
+        if verified.status is not SolveStatus.SOLVED:
             note(" ".join(verified.explanation) or "The optimiser found no motion.")
     return make_plan(gait, result, solve_live)
 

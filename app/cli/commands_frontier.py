@@ -10,6 +10,7 @@ from app.cli.common.output import INFEASIBLE, end_on_signals, show
 from app.cli.gait_options import Method, add_gait_options, asked_gait, returns_anew
 from app.common.json import Json
 from app.export.trajectory_files import write_trajectory
+from core.checks.made_plan import RULE
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline
 from core.robot.model import load_robot
@@ -96,7 +97,8 @@ def _lines(content: Json) -> list[str]:
     )
     name = "turn" if turns else "step"
     if not content["max_yaw" if turns else "max_step"]:
-        return [f"{content['gait']}: no {name} is possible.", *content["explanation"]]
+        verdict = "confirmed" if RULE in content["limited_by"] else "possible"
+        return [f"{content['gait']}: no {name} is {verdict}.", *content["explanation"]]
     said = (
         f"confirmed by the exact optimiser; {live} by the live one"
         if content["confirmed"]

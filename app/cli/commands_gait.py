@@ -200,7 +200,7 @@ def run_optimise(options: Namespace) -> int:
         gait = _mended(gait, options.remedy)
     verified = optimise(gait, options.method)
     helps = _remedies(gait, options.words) if verified.status is SolveStatus.INFEASIBLE else []
-    output = options.output if verified.status is SolveStatus.SOLVED else None
+    output = options.output if verified.has_motion else None
     if output is not None:
         write_trajectory(output, verified.trajectory, gait.robot)
     content: Json = {

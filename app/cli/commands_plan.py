@@ -10,8 +10,9 @@ from app.cli.common.output import NOT_FIT, note, show, verdict_lines, write
 from app.export.trajectory_files import read_trajectory, write_waypoints
 from app.export.way_files import is_way_file, read_way_file
 from app.gaits.verdict_views import verdict_view
+from app.simulation.physics_check import checked_in_physics
 from core.checks.checked_plan import CheckedPlan
-from core.checks.rules import check_plan, check_waypoints
+from core.checks.rules import check_waypoints
 from core.findings import Verdict
 from core.robot.model import load_robot
 from core.wire.robot_time import estimate_seconds, stop_time
@@ -91,7 +92,7 @@ def run_check(options: Namespace) -> int:
             note(assumption)
         model = load_robot(options.robot or read.robot or ROBOT)
         way = plan_waypoints(model, read.trajectory)
-        verdict = check_plan(CheckedPlan(model, read.trajectory, way.waypoints, way=way))
+        verdict = checked_in_physics(CheckedPlan(model, read.trajectory, way.waypoints, way=way))
     show(options, verdict_view(verdict), verdict_lines(verdict))
     return 0 if verdict.passed else NOT_FIT
 
@@ -109,4 +110,4 @@ def _way_verdict(path: Path, robot: str | None) -> Verdict:
         )
         return check_waypoints(way.model, way.waypoints)
     sent = plan_of_knots(way.model, way.motion, way.waypoints)
-    return check_plan(CheckedPlan(way.model, way.motion, sent.waypoints, way=sent))
+    return checked_in_physics(CheckedPlan(way.model, way.motion, sent.waypoints, way=sent))

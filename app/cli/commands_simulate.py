@@ -197,8 +197,9 @@ def _lines(
         f"{figures.realtime_factor:.1f} × real time; {problem.physics.title}, {problem.rig.value}.",
         f"  mean error   body {figures.body_error * 1000:.1f} mm, feet {_mm(feet)} mm "
         f"(mean {figures.feet_mean_error * 1000:.1f} mm)",
-        f"  distance     {figures.distance * 1000:.1f} of {figures.planned_distance * 1000:.1f} mm planned",
-        f"  heading      {np.degrees(figures.heading):.1f} of {np.degrees(figures.planned_heading):.1f}°",
+        f"  way          {_share_words(figures.way.made * 1000, figures.way.asked * 1000, 'mm')}; it ends "
+        f"{figures.way.gap * 1000:.1f} mm from the plan's end",
+        f"  turn         {_turn_words(figures)}",
         f"  largest tilt {np.degrees(figures.max_tilt):.1f}° at {figures.max_tilt_time:.1f} s",
         f"  least margin {margin}",
         f"  slip         {_mm(figures.slip)} mm (feet 1 to {len(feet)})",
@@ -208,6 +209,17 @@ def _lines(
     ]
     lines += [f"  {found.severity.value}: {found.rule}: {found.sentence}" for found in findings]
     return lines + _variation_lines(runs)
+
+
+def _share_words(made: float, asked: float, unit: str) -> str:
+    return f"{made:.1f} of {asked:.1f} {unit} ({made / asked * 100:.0f} %)" if asked else "none is asked"
+
+
+def _turn_words(figures: SimulationReport) -> str:
+    way = figures.way
+    if not way.asked_turn:
+        return f"{np.degrees(figures.heading):.1f} of {np.degrees(figures.planned_heading):.1f}°"
+    return _share_words(np.degrees(way.made_turn), np.degrees(way.asked_turn), "°")
 
 
 def _outcome(problem: SimulationProblem, figures: SimulationReport, findings: Sequence[Finding]) -> str:

@@ -8,8 +8,8 @@ from app.cli.common.output import note
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text
 from app.plans.sequence_plan import steps_between
+from app.simulation.physics_check import checked_in_physics
 from core.checks.checked_plan import checked_plan
-from core.checks.rules import check_plan
 from core.errors import CheckError, FootfallError, InfeasibleError
 from core.findings import Verdict
 from core.gait.gait import Gait, SequencePart
@@ -17,7 +17,7 @@ from core.gait.manual_motion import manual_motion
 from core.library.new_gait import with_robot
 from core.library.sequence import chain_runs, part_name, require_own, run_of
 from core.motion.trajectory import Trajectory
-from core.pose_gaits.gait_poses import found_gait, pose_problem
+from core.pose_gaits.gait_poses import found_gait, pose_problem, with_poses
 from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_gait import PoseGait
 from core.recorded.recorded_motion import gait_trajectory
@@ -32,9 +32,12 @@ def gait_verdict(path: Path, robot: str | None) -> Verdict:
     if robot is not None:
         gait = with_robot(gait, load_robot(robot))
     model = load_robot(gait.robot)
+    if gait.poses is not None:
+        # What was left to the search, such as the step, is then in the document that the motion is held to.
+        gait = with_poses(gait, poses_of(gait))
     trajectory = trajectory_of(gait)
     way = plan_waypoints(model, trajectory, *sending_of(gait))
-    return check_plan(checked_plan(gait, model, trajectory, way))
+    return checked_in_physics(checked_plan(gait, model, trajectory, way))
 
 
 def sending_of(gait: Gait) -> tuple[float, float | None]:
@@ -62,7 +65,9 @@ def trajectory_of(gait: Gait) -> Trajectory:
     if gait.segment_table is not None:
         return manual_motion(gait, load_robot(gait.robot)).trajectory
     verified = optimise(gait)
-    if verified.status is SolveStatus.SOLVED:
+    if verified.has_motion:
+        if verified.status is not SolveStatus.SOLVED:
+            note(" ".join(verified.explanation))
         return verified.trajectory
     sentence = " ".join(verified.explanation) or "The optimiser found no motion."
     if verified.status is SolveStatus.INFEASIBLE:

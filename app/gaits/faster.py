@@ -10,7 +10,8 @@ from functools import partial
 from app.common.json import Json
 from app.documents.gait_json import gait_content, motion_hash
 from app.gaits.pose_searches import result_content
-from app.plans.plan import Plan, without_option_names
+from app.plans.make_plan import without_option_names
+from app.plans.plan import Plan
 from app.plans.walk_figures import plan_figures, pose_figures
 from core.errors import FootfallError
 from core.gait.gait import Gait

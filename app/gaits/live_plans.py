@@ -16,7 +16,8 @@ from app.common.json import Json
 from app.documents.gait_json import gait_from_content, motion_hash
 from app.gaits.normalise import normalise
 from app.gaits.views import plan_view
-from app.plans.plan import Plan, Solve
+from app.plans.make_plan import Solve
+from app.plans.plan import Plan
 from app.plans.sequence_plan import plan_of
 from core.errors import StateError
 from core.gait.gait import Gait, motion_problem

@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from app.gaits.open_gait import OpenGait, VerdictOf
-from app.plans.plan import Plan, Solve
+from app.plans.make_plan import Solve
+from app.plans.plan import Plan
 from app.plans.sequence_plan import ResultFor, plan_of
 from core.gait.gait import Gait
 

@@ -21,7 +21,8 @@ from app.gaits.trash import DeletedGait
 from app.gaits.undo import merged_gait, without_unreadable
 from app.gaits.versions import VersionKind, Versions
 from app.gaits.views import require_line
-from app.plans.plan import Plan, Solve, verdict_of
+from app.plans.make_plan import Solve
+from app.plans.plan import Plan, verdict_of
 from app.store.database import Database
 from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles

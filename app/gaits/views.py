@@ -18,7 +18,6 @@ from app.plans.reach_outline_view import reach_rings
 from app.plans.robot_times import robot_times
 from app.plans.verified_result import VerifiedResult
 from core.arrays import Floats
-from core.checks.coupling import real_heights
 from core.gait.gait import Gait
 from core.gait.mirroring import mirror_of
 from core.gait.motion_source import motion_source
@@ -211,8 +210,9 @@ def plan_view(plan: Plan) -> Json:
             "foot_speeds_mm_s": np.round(foot_speeds(trajectory) * 1000, 2).tolist(),
             "motor_speeds_mm_s": finite(_motor_speeds_mm_s(plan.model, trajectory).tolist()),
         }
-        if plan.model.is_coupled:
-            heights_mm = real_heights(plan.model, trajectory) * 1000
+        if plan.made is not None:
+            poses = plan.made.poses
+            heights_mm = poses.at(trajectory.times, poses.motion.heights) * 1000
             content["real_heights_mm"] = finite(np.round(heights_mm, 4).tolist())
         if plan.waypoints is None:
             content["strokes_mm"] = finite(np.round(plan.free_strokes * 1000, 4).tolist())

@@ -1,61 +1,37 @@
-"""Makes the plan of a gait: the motion that is shown, checked and sent."""
+"""The plan of a gait: the motion that is shown, checked and sent."""
 
 import hashlib
-import re
-from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
 
-from app.common.json import Json
 from app.documents.gait_json import sent_hash
-from app.documents.trajectory_json import content_sha256, trajectory_from_content
 from app.plans.planned_part import PlannedPart
-from app.plans.verified_result import VerifiedResult, verify
+from app.plans.verified_result import VerifiedResult
 from core.arrays import Floats
 from core.checks.checked_plan import checked_plan
-from core.checks.coupling import coupling_note
+from core.checks.made_plan import MadePlan, made_plan, other_motion_words
 from core.checks.rules import check_plan
 from core.checks.simulation import Simulated
 from core.errors import CheckError, FootfallError, InputError
 from core.findings import Verdict
-from core.gait.gait import Gait, motion_problem, resting_poses
-from core.gait.held_feet import HeldFeet, held_sentence
-from core.gait.manual_motion import manual_motion, stance_slip
+from core.gait.gait import Gait
 from core.gait.options import GaitOptions
-from core.gait.poses import FoundPoses
-from core.gait.recording import Recording, RecordingForm
 from core.motion.balance import balance_margins
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
-from core.pose_gaits.gait_poses import asked_of, drawn_poses, found_gait, gait_of_poses, pose_problem
 from core.pose_gaits.motion_in_move import motion_along
-from core.pose_gaits.pace import motion_words
-from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_gait import PoseGait
-from core.problem.initial_guess import initial_guess
-from core.problem.motion_check import check_motion
-from core.problem.motion_problem import MotionProblem, missing_support
-from core.recorded.recorded_motion import gait_trajectory
 from core.robot.kinematics import UnreachableError, free_strokes
-from core.robot.model import RobotModel, load_robot
-from core.wire.robot_time import estimate_seconds
+from core.robot.model import RobotModel
 from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import Waypoints
-from solver_jobs import MotionResult, SolveStatus
+from solver_jobs import SolveStatus
 
-ADAPTED_NOTE = "The last poses, adapted to the new values: they are not solved, and cannot be sent."
-_OPTION_NAME = re.compile(r" \(--[a-z-]+\)")
-"""What the command line calls an option, in a reason; a document has no such names."""
-PIN_SEEN = 1e-6
-"""A pinned pose that is drawn this far from its place is drawn nearer, m."""
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
 """One waypoint a sample."""
-
-Solve = Callable[[MotionProblem], MotionResult]
-"""Asks the live tier."""
 
 
 class PlanSource(StrEnum):
@@ -133,7 +109,8 @@ class Plan:
     @property
     def broke_off(self) -> bool:
         """Whether a solver gave no answer, so that it is worth asking again."""
-        failed = self.live is not None and self.live.status is SolveStatus.FAILED
+        live = self.live
+        failed = live is not None and live.status is SolveStatus.FAILED and not live.has_motion
         return failed or any(part.broke_off for part in self.parts)
 
     @cached_property
@@ -162,7 +139,11 @@ class Plan:
         """Smallest margin that the check will find, m; None where there is none."""
         if self.trajectory is None:
             return None
-        smallest = float(balance_margins(self.model, self.trajectory)[0].min())
+        made = self.made
+        margins = (
+            balance_margins(self.model, self.trajectory)[0] if made is None else made.poses.motion.margins
+        )
+        smallest = float(margins.min())
         return smallest if np.isfinite(smallest) else None
 
     @property
@@ -173,107 +154,22 @@ class Plan:
             return np.zeros((0, 3 * self.model.leg_count))
         return free_strokes(self.model, t.feet_world, t.pose(self.model)).reshape(t.knot_count, -1)
 
+    @cached_property
+    def made(self) -> MadePlan | None:
+        """What shared motors make of what would be sent; None where each has its own."""
+        if self.trajectory is None or self.way is None or not self.model.is_coupled:
+            return None
+        return made_plan(self.model, self.trajectory, self.way.waypoints, self.way.kept)
+
     @property
     def margins(self) -> Floats:
         """(n,) static stability margin, m."""
         if self.trajectory is None:
             return np.zeros(0)
         t = self.trajectory
+        if self.made is not None:
+            return self.made.poses.at(t.times, self.made.poses.motion.margins)
         return stability_margins(t.body_world[:, :2], t.feet_world, t.contact)
-
-
-def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
-    """Makes a gait's plan from a recording, a segment table, a stored exact result, or the live tier.
-
-    Args:
-        gait: the document.
-        result: the stored result that this document has, where there is one.
-        solve: asks the live tier; called only where nothing else makes the plan.
-    """
-    model = load_robot(gait.robot)
-    try:
-        if gait.poses is not None:
-            return pose_plan(gait, model, result)
-        if gait.recorded is not None:
-            return with_waypoints(_recorded_plan(gait, gait.recorded, model), gait.options)
-        if gait.segment_table is not None:
-            motion = manual_motion(gait, model)
-            note = _manual_note(float(motion.slip.max()))
-            return with_waypoints(
-                Plan(PlanSource.MANUAL, note, model, motion.trajectory, None, None, motion.slip), gait.options
-            )
-        problem = motion_problem(gait, model)
-        stored = _confirmed(problem, result)
-        if stored is not None and result is not None:
-            note = " ".join(filter(None, (_optimised_note(result), _held_note(gait, model))))
-            plan = Plan(PlanSource.OPTIMISED, note, model, stored, None, None)
-            seconds, trajectory = result["solve_seconds"], content_sha256(result["trajectory"])
-            return with_waypoints(replace(plan, seconds=seconds, result=trajectory), gait.options)
-        plan = _live_plan(problem, verify(problem, solve(problem)))
-        if plan.source is PlanSource.LIVE:
-            plan = replace(plan, note=" ".join(filter(None, (plan.note, _held_note(gait, model)))))
-        return with_waypoints(plan, gait.options)
-    except FootfallError as refusal:
-        return Plan(PlanSource.DRAFT, refusal.sentence, model, None, None, refusal)
-
-
-def pose_plan(gait: Gait, model: RobotModel, result: Json | None) -> Plan:
-    """The plan of a gait for the robot's clock: its poses where they answer what is asked, else adapted ones.
-
-    Args:
-        gait: the document.
-        model: its robot.
-        result: what a search for exactly this gait ended with, where there was one.
-
-    Raises:
-        FootfallError: the gait asks for what it cannot have, or adapted poses are out of reach.
-    """
-    found = found_gait(gait, model)
-    kept = None if result is None else result.get("found")
-    problem = pose_problem(gait, model)
-    if found is None and kept is not None and kept["answers"] == asked_of(problem):
-        found = gait_of_poses(problem, FoundPoses(**kept))
-    if found is not None and check_poses(found).confirmed:
-        return _of_poses(PlanSource.POSES, _poses_note(found), found)
-    is_infeasible = result is not None and result.get("status") == SolveStatus.INFEASIBLE
-    told = result.get("explanation", ()) if result is not None and is_infeasible else ()
-    why = without_option_names(told)
-    drawn = drawn_poses(gait, model)
-    note = " ".join(why) or " ".join((ADAPTED_NOTE, *_pins_out_of_reach(drawn)))
-    return replace(_of_poses(PlanSource.ADAPTED, note, drawn), infeasible=why)
-
-
-def without_option_names(sentences: Iterable[str]) -> tuple[str, ...]:
-    """Reasons of a search without what the command line calls an option."""
-    return tuple(_OPTION_NAME.sub("", sentence) for sentence in sentences)
-
-
-def _pins_out_of_reach(drawn: PoseGait) -> Iterator[str]:
-    for pin in drawn.problem.pinned:
-        away = drawn.bodies[pin.pose - 1, :2] - drawn.bodies[0, :2]
-        if np.abs(away - drawn.problem.pinned_place(pin, drawn.step)).max() > PIN_SEEN:
-            yield f"No rod is long enough for where pose {pin.pose} is pinned; it is drawn nearer."
-
-
-def _of_poses(source: PlanSource, note: str, poses: PoseGait) -> Plan:
-    """Every pose is a waypoint, and nothing is merged or cut: the poses are made for the motors' way."""
-    plan = Plan(source, note, poses.problem.model, poses.trajectory, None, None, poses=poses)
-    return with_waypoints(plan, AS_PLANNED)
-
-
-def _poses_note(poses: PoseGait) -> str:
-    moves, seconds = poses.problem.move_count, estimate_seconds(poses.waypoints)
-    turned = float(poses.headings[-1] - poses.headings[0])
-    pace = motion_words(poses.distance / seconds, turned / seconds)
-    pivots = (
-        " Soles pivot on the ground; how flat shoes do that is not known yet."
-        if poses.problem.is_turned
-        else ""
-    )
-    return (
-        f"Made for the robot's clock: {moves} moves in {seconds:.1f} s on the robot, {pace}; every limit is "
-        f"confirmed along every move.{pivots}"
-    )
 
 
 def iterate_plan(model: RobotModel, trajectory: Trajectory, number: int, last: int) -> Plan:
@@ -287,31 +183,6 @@ def iterate_plan(model: RobotModel, trajectory: Trajectory, number: int, last: i
     """
     note = f"Iteration {number} of {last}: a motion on the solver's way, not the plan."
     return with_waypoints(Plan(PlanSource.ITERATE, note, model, trajectory, None, None), AS_PLANNED)
-
-
-def _recorded_plan(gait: Gait, recording: Recording, model: RobotModel) -> Plan:
-    """The recorded motion, as it stands.
-
-    Raises:
-        InputError: it cannot be read, or the document says another motion.
-    """
-    trajectory = gait_trajectory(gait, recording, model)
-    slip = stance_slip(trajectory.feet_world, trajectory.contact)
-    note = f"The recorded motion of {recording.file}, as it stands."
-    if recording.form is RecordingForm.WAYPOINTS:
-        note = f"The waypoints of {recording.file}; standing feet slide up to {slip.max() * 1000:.1f} mm."
-    return Plan(PlanSource.RECORDED, note, model, trajectory, None, None, slip)
-
-
-def _live_plan(problem: MotionProblem, answer: VerifiedResult) -> Plan:
-    """The live tier's motion where it is confirmed, its nearest one where there is none, else a drawing."""
-    model, seconds = problem.model, answer.result.solve_seconds
-    if answer.status is SolveStatus.SOLVED:
-        note = _live_note(answer)
-        return Plan(PlanSource.LIVE, note, model, answer.trajectory, None, None, None, answer, seconds)
-    nearest = answer.trajectory if answer.status is SolveStatus.INFEASIBLE else initial_guess(problem)
-    note = missing_support(problem.timeline, problem.limits.margin) or " ".join(answer.explanation)
-    return Plan(PlanSource.DRAFT, note, model, nearest, None, None, None, answer, seconds)
 
 
 def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
@@ -328,52 +199,10 @@ def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
     except UnreachableError as unreachable:
         draft = plan.source is PlanSource.DRAFT
         return replace(plan, refusal=InputError(plan.note, "timeline") if draft else unreachable)
-    words = (plan.note, coupling_note(plan.model, plan.trajectory))
-    return replace(plan, way=way, note=" ".join(filter(None, words)))
-
-
-def _confirmed(problem: MotionProblem, result: Json | None) -> Trajectory | None:
-    """A stored result's motion, if the checker still confirms it for this problem and this robot."""
-    if result is None:
-        return None
-    try:
-        trajectory = trajectory_from_content(result["trajectory"])
-        return trajectory if check_motion(problem, trajectory).confirmed else None
-    except (KeyError, TypeError, ValueError, InputError):
-        return None
-
-
-def _manual_note(slip: float) -> str:
-    return f"Made by hand from its segment table; standing feet slide up to {slip * 1000:.1f} mm."
-
-
-def _live_note(answer: VerifiedResult) -> str:
-    return f"Live plan, {answer.result.solve_seconds * 1000:.0f} ms, all limits met."
-
-
-def _held_note(gait: Gait, model: RobotModel) -> str:
-    """Which feet are held up, and where the body rests aside for it; nothing where none is."""
-    if not gait.held.any:
-        return ""
-    natural = resting_poses(replace(gait, held=HeldFeet()), model)
-    words = [held_sentence(gait.held)]
-    for pose, middle, end in zip(resting_poses(gait, model), natural, ("start", "end"), strict=True):
-        aside = float(np.linalg.norm(pose.body_world - middle.body_world))
-        if aside > 0.0:
-            words.append(
-                f"At the {end} the body rests {aside * 1000:.1f} mm aside, over the feet that stand."
-            )
-    return " ".join(filter(None, words))
-
-
-def _optimised_note(result: Json) -> str:
-    # Results of earlier versions do not say it; all of them are optimal.
-    if not result.get("optimal", True):
-        return " ".join(result["explanation"])
-    return (
-        f"Optimised in {result['iterations']} iterations, {result['solve_seconds'] * 1000:.0f} ms; every "
-        f"constraint confirmed, largest violation {result['max_violation']:.1e}."
-    )
+    sent = replace(plan, way=way)
+    if sent.made is None or sent.made.is_planned:
+        return sent
+    return replace(sent, note=f"{sent.note} {other_motion_words(sent.made)}".strip())
 
 
 def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Verdict:

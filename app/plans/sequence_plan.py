@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from app.documents.gait_json import motion_hash, sent_hash
-from app.plans.plan import Plan, PlanSource, Solve, make_plan, with_waypoints
+from app.plans.make_plan import Solve, make_plan
+from app.plans.plan import Plan, PlanSource, with_waypoints
 from app.plans.sequence_parts import placed_parts, unplaced_parts
 from app.plans.verified_result import verify
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError
@@ -153,7 +154,7 @@ def steps_between(solve: Solve, before: Piece, piece: Piece, problem: MotionProb
         CheckError: the solver gave no answer that is confirmed.
     """
     verified = verify(problem, solve(problem))
-    if verified.status is SolveStatus.SOLVED:
+    if verified.has_motion:
         return verified.trajectory
     ways = np.linalg.norm(problem.goal.feet_world - problem.start.feet_world, axis=1)
     feet = ", ".join(f"foot {f + 1} by {way * 1000:.1f} mm" for f, way in enumerate(ways) if way > SAME_PLACE)

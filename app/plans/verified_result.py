@@ -1,8 +1,9 @@
-"""A solver's result after the independent checker: only what it confirms counts as solved."""
+"""A solver's result after the independent checker: only what it confirms, and the robot makes, is solved."""
 
 from dataclasses import dataclass
 
 from app.common.json import Json, finite
+from core.checks.made_plan import unmade_words
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import MotionCheck, check_motion
 from core.problem.motion_problem import MotionProblem
@@ -14,9 +15,11 @@ class VerifiedResult:
     """A solver's result together with the findings of the independent checker.
 
     Args:
-        status: the solver's, but failed where the checker does not confirm what is said to be solved.
+        status: the solver's, but failed where the checker does not confirm what is said to be solved, or
+            where the robot's motors make another motion of it.
         explanation: sentences where it is not solved.
         check: what the checker measured.
+        has_motion: whether there is a motion that keeps every limit, be it the one that is made or not.
         result: the solver's own report.
         problem: what was asked.
     """
@@ -24,6 +27,7 @@ class VerifiedResult:
     status: SolveStatus
     explanation: tuple[str, ...]
     check: MotionCheck
+    has_motion: bool
     result: MotionResult
     problem: MotionProblem
 
@@ -53,18 +57,23 @@ class VerifiedResult:
 
 
 def verify(problem: MotionProblem, result: MotionResult) -> VerifiedResult:
-    """Checks a solver's result with the independent checker; an unconfirmed solution counts as failed.
+    """Checks a solver's result with the independent checker.
+
+    An unconfirmed solution counts as failed, and so does one that the robot's motors cannot make.
 
     Args:
         problem: what was asked.
         result: what the solver says of it.
     """
     check = check_motion(problem, result.trajectory)
-    status, explanation = result.status, result.explanation
-    if status is SolveStatus.SOLVED and not check.confirmed:
-        status = SolveStatus.FAILED
-        explanation = (
+    if result.status is not SolveStatus.SOLVED:
+        return VerifiedResult(result.status, result.explanation, check, False, result, problem)
+    if not check.confirmed:
+        unconfirmed = (
             f"The solver says it is solved, but the checker found {check.worst_family} violated by "
-            f"{check.max_violation:.1e}; the result is not used.",
+            f"{check.max_violation:.1e}; the result is not used."
         )
-    return VerifiedResult(status, explanation, check, result, problem)
+        return VerifiedResult(SolveStatus.FAILED, (unconfirmed,), check, False, result, problem)
+    unmade = unmade_words(problem.model, result.trajectory)
+    status = SolveStatus.FAILED if unmade else SolveStatus.SOLVED
+    return VerifiedResult(status, (unmade,) if unmade else result.explanation, check, True, result, problem)

@@ -15,10 +15,11 @@ from app.robot.views import allowed, jog_stop_seconds
 from core.arrays import Floats
 from core.errors import CheckError, InfeasibleError, StateError
 from core.findings import Finding
-from core.jog.check import RANGE_RULE, JogCheck, check_jog, feet_in_robot
+from core.jog.check import RANGE_RULE, JogCheck, check_jog
 from core.jog.steps import Axis, JogPart, JogStep, jog_range, jog_strokes
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import real_strokes
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import RobotModel
 from core.wire.robot_time import ARRIVAL_THRESHOLD, PUBLISHED, far_motors
 

@@ -88,8 +88,9 @@ class Simulation:
     def __repr__(self) -> str:
         tried = "" if self.share is None else f"; {self.share * 100:.0f} % of the variations walk"
         said = "falls over" if self.fell else "walks" if self.walks else "is not fit"
-        way, planned = (self.figures[key] * 1000 for key in ("distance", "planned_distance"))
-        return f"Simulation: {said}, {way:.1f} of {planned:.1f} mm{tried}"
+        shares = {"way": self.figures["way_share"], "turn": self.figures["turn_share"]}
+        made = [f"{share * 100:.0f} % of its {what}" for what, share in shares.items() if share is not None]
+        return f"Simulation: {', '.join([said, *made])}{tried}"
 
     def _repr_html_(self) -> str:
         figures, error = self.figures, self.figures["mean_error"]

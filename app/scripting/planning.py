@@ -18,8 +18,9 @@ from app.cli.gait_options import Method, gait_with_options, named_gait
 from app.documents.trajectory_json import trajectory_content
 from app.export.way_files import is_way_file, read_way_file
 from app.gaits.live_plans import is_drawing
+from app.plans.make_plan import make_plan
 from app.plans.plan import Plan as Made
-from app.plans.plan import PlanSource, make_plan
+from app.plans.plan import PlanSource
 from app.scripting.arrays import array_of
 from app.scripting.gaits import Gait, gait
 from app.scripting.options import command_options
@@ -95,11 +96,12 @@ def _optimised(of: Gait, method: Method, name: str) -> Plan:
         "robot": of.robot,
         **verified.content,
     }
-    if verified.status is not SolveStatus.SOLVED:
+    if not verified.has_motion:
         robot = Robot(load_robot(of.robot))
         return Plan(verified.status.value, robot, of, tuple(verified.explanation), figures)
     result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
-    return _of_made(of, make_plan(of.document, result, solve_live), verified.status.value, figures)
+    plan = _of_made(of, make_plan(of.document, result, solve_live), verified.status.value, figures)
+    return replace(plan, explanation=tuple(verified.explanation))
 
 
 def _of_made(of: Gait, made: Made, status: str, figures: dict[str, Any]) -> Plan:

@@ -13,8 +13,8 @@ from app.scripting.gaits import Gait
 from app.scripting.html import Cell, paragraph, table
 from app.scripting.planning import plan
 from app.scripting.plans import Plan
+from app.simulation.physics_check import checked_in_physics
 from core.checks.checked_plan import CheckedPlan, checked_plan
-from core.checks.rules import check_plan
 from core.findings import Verdict as Content
 
 
@@ -90,5 +90,5 @@ def verdict_on(of: Plan) -> Content:
     """The verdict on a plan: against its document, where it has one."""
     motion, way = of.need_motion(), of.need_way()
     if of.gait is None:
-        return check_plan(CheckedPlan(of.robot.model, motion, way.waypoints, way=way))
-    return check_plan(checked_plan(of.gait.document, of.robot.model, motion, way))
+        return checked_in_physics(CheckedPlan(of.robot.model, motion, way.waypoints, way=way))
+    return checked_in_physics(checked_plan(of.gait.document, of.robot.model, motion, way))

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 from dataclasses import asdict, fields
 from typing import Any
 
@@ -12,6 +13,7 @@ from app.common.version import VERSION
 from app.plans.plan import Plan
 from core.errors import CheckError, InputError
 from core.motion.trajectory import Trajectory
+from core.motion.way_made import NO_TURN, NO_WAY, WayMade
 from core.physics.masses import default_physics, part_masses
 from core.physics.parameters import PhysicsSet, physics_sets
 from core.physics.problem import Rig, SimulationProblem
@@ -104,6 +106,7 @@ def physics_from_content(content: Json) -> PhysicsSet:
 def report_content(report: SimulationReport) -> Json:
     """A report as JSON content, SI."""
     values = {field.name: getattr(report, field.name) for field in fields(report)}
+    values["way"] = asdict(report.way) | {"share": report.way.share, "turn_share": report.way.turn_share}
     content: Json = finite(
         {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
     )
@@ -111,11 +114,32 @@ def report_content(report: SimulationReport) -> Json:
 
 
 def report_from_content(content: Json) -> SimulationReport:
-    """Inverse of `report_content`."""
+    """Inverse of `report_content`; also of one that an earlier version kept."""
     values: Json = {
         name: np.array(value) if isinstance(value, list) else value for name, value in content.items()
     }
-    return SimulationReport(**values)
+    gap = values.pop("goal_gap", None)
+    way = _earlier_way(values, gap) if "way" not in values else WayMade(**_without_shares(values["way"]))
+    return SimulationReport(**(values | {"way": way}))
+
+
+def _without_shares(content: Json) -> Json:
+    return {name: value for name, value in content.items() if name not in ("share", "turn_share")}
+
+
+def _earlier_way(content: Json, gap: float) -> WayMade:
+    """Way and turn by the three distances that earlier versions kept: plan, robot, and between their ends."""
+    asked, distance = content["planned_distance"], content["distance"]
+    turn, made_turn = content["planned_heading"], content["heading"]
+    goes, turns = asked > NO_WAY, abs(turn) > NO_TURN
+    return WayMade(
+        asked=asked if goes else 0.0,
+        made=(asked**2 + distance**2 - gap**2) / (2 * asked) if goes else 0.0,
+        gap=gap,
+        asked_turn=abs(turn) if turns else 0.0,
+        made_turn=math.copysign(1.0, turn) * made_turn if turns else 0.0,
+        turn_gap=abs(made_turn - turn),
+    )
 
 
 def report_figures(report: SimulationReport) -> Json:
@@ -137,6 +161,8 @@ def report_figures(report: SimulationReport) -> Json:
             "planned_distance": report.planned_distance,
             "heading": report.heading,
             "planned_heading": report.planned_heading,
+            "way_share": report.way.share,
+            "turn_share": report.way.turn_share,
             "min_margin": report.min_margin,
             "motor_error": report.motor_error.tolist(),
             "saturation": report.saturation.tolist(),

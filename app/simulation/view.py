@@ -77,6 +77,17 @@ def _rounded(values: Floats, digits: int) -> list[Any]:
     return rounded
 
 
+def way_words(way: Json) -> str:
+    """How much of way and turn is made, in words, of a report's content."""
+    parts = []
+    if way["asked"]:
+        parts.append(f"goes {way['made'] * 1000:.1f} of {way['asked'] * 1000:.1f} mm")
+    if way["asked_turn"]:
+        made, asked = np.degrees([way["made_turn"], way["asked_turn"]])
+        parts.append(f"turns {made:.1f} of {asked:.1f}°")
+    return " and ".join(parts) or f"ends {way['gap'] * 1000:.1f} mm from where the plan ends"
+
+
 def report_sentence(figures: Json) -> str:
     """How a simulated run came out, in words, of its report's content."""
     if figures["fell"]:
@@ -84,7 +95,7 @@ def report_sentence(figures: Json) -> str:
     if figures["ended_early"]:
         return str(figures["ended_early"])
     tilt = np.degrees(figures["max_tilt"])
-    way = f"goes {figures['distance'] * 1000:.1f} of {figures['planned_distance'] * 1000:.1f} mm"
+    way = way_words(figures["way"])
     if figures["max_tilt"] > TILT_LIMIT:
         return f"The robot tips: it leans by {tilt:.1f}° at {figures['max_tilt_time']:.1f} s, and {way}."
     if max(figures["swing_load"]) > SWING_LIMIT:

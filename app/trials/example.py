@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from app.common.json import Json
-from app.plans.plan import make_plan
+from app.plans.make_plan import make_plan
 from app.simulation.service import SimulationTier
 from app.trials.planned import planned_of_gait, sent_problem
 from app.trials.service import TrialDescription, TrialService

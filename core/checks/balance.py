@@ -8,14 +8,12 @@ import numpy as np
 from core.arrays import Bools, Floats, first_lowest, stretches
 from core.checks.checked_plan import CheckedPlan
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
-from core.motion.balance import STANDING_DEPTH, balance_margins
+from core.motion.balance import BALANCE_RESERVE, STANDING_DEPTH, balance_margins
 from core.motion.support_polygon import stability_margins
-from core.robot.leg import foot_from_strokes
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import RobotModel
 from core.wire.waypoints import Waypoints
 
-BALANCE_RESERVE = 0.001
-"""Below this distance to the polygon's edge the check warns, m."""
 STROKE_BALANCE_SLACK = 0.0005
 """From strokes alone balance is known to this much, since which feet stand is itself a guess, m."""
 KEEP_THREE = "Keep three feet down."
@@ -102,9 +100,7 @@ def _support_words(value: float, standing: Sequence[str]) -> tuple[str, str]:
 
 def check_standing_balance(model: RobotModel, waypoints: Waypoints) -> Outcome:
     """The centre of mass over the deepest feet, of strokes alone by forward kinematics."""
-    feet_module = foot_from_strokes(model.leg, waypoints.strokes)
-    turned = np.einsum("lij,nlj->nli", model.R_robot_from_module, feet_module)
-    feet_robot = turned + model.module_centres_robot
+    feet_robot = feet_in_robot(model, waypoints.strokes)
     height = feet_robot[..., 2] - feet_robot[..., 2].min(axis=1, keepdims=True)
     standing = np.asarray(height <= STANDING_DEPTH)
     margins = stability_margins(np.zeros((waypoints.count, 2)), feet_robot, standing)

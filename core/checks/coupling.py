@@ -1,136 +1,218 @@
-"""The rule for robots whose motors share actuators: what of the strokes is lost, and whether feet lift."""
+"""The rules for robots whose motors share actuators, which judge the motion that is made of a plan."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
-from core.arrays import Floats, first_highest, first_place, stretches
+from core.arrays import Bools, Floats, first_highest, first_lowest, first_place
+from core.checks.checked_plan import CheckedPlan
+from core.checks.ground import CLEARANCE_LIMIT, SLIP_LIMIT
+from core.checks.made_plan import (
+    RULE,
+    MadePlan,
+    MadePoses,
+    RealSwing,
+    made_plan,
+    made_poses,
+    made_words,
+)
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
-from core.gait.manual_motion import stance_slip
-from core.motion.trajectory import Trajectory
-from core.robot.coupled_strokes import heights_over_standing, real_feet, real_strokes
-from core.robot.kinematics import free_strokes
+from core.gait.held_feet import feet_words
+from core.motion.balance import BALANCE_RESERVE
+from core.motion.way_made import LEAST_SHARE
+from core.physics.findings import TILT_LIMIT, share_outcome
+from core.robot.coupled_strokes import real_strokes
 from core.robot.model import RobotModel
+from core.wire.waypoints import Waypoints
 
-RULE = "coupling"
 RESIDUAL_LIMIT = 0.001
 """Strokes that are missed by more get a warning; the firmware takes so much for arrived, m."""
+SIMULATE = "Move feet that share a motor alike, and simulate: physics knows it more exactly."
+OVER_FEET = "Shift the body over the feet that really stand before each step."
+SLIDING_LIMIT = 0.003
+"""A foot that slides no further in a whole run is not looked at where only waypoints are known, m."""
+MOST_SLIDING = 1.2
+"""Feet that slide further than this times the robot's way show that it does not walk, by measurement."""
+ESTIMATE_SHARE = 0.25
+"""An estimated way may be so much of the asked one too long: by measurement against physics at most 0.2."""
+MORE_MOTORS = "Choose a robot with more motors."
+MOVE_ALIKE = "Move feet that share a motor alike, or choose a robot with more motors."
 
 
-@dataclass(frozen=True)
-class RealSwing:
-    """How high a foot really rises in one of its swings.
-
-    Args:
-        foot: 0-based.
-        first: sample with which it begins, 0-based.
-        highest: sample at which it is highest.
-        rise: height there over the plane of the standing feet, m.
-    """
-
-    foot: int
-    first: int
-    highest: int
-    rise: float
-
-
-def coupling_residual(model: RobotModel, trajectory: Trajectory) -> Floats:
-    """(n, legs, 3) h − C·u: by how much each wanted stroke is longer than the one that is made, m."""
-    wanted = free_strokes(model, trajectory.feet_world, trajectory.pose(model))
-    return wanted - real_strokes(model, wanted)
-
-
-def real_heights(model: RobotModel, trajectory: Trajectory) -> Floats:
-    """(n, legs) height of each real foot over the plane of the standing ones, m; nan where there is none."""
-    t = trajectory
-    return heights_over_standing(real_feet(model, t.feet_world, t.pose(model)), t.contact)
-
-
-def real_swings(model: RobotModel, trajectory: Trajectory) -> tuple[RealSwing, ...]:
-    """Every swing with its real height, by foot and then by time.
-
-    A swing is left out in which three standing feet never make a plane to measure from.
-    """
-    t = trajectory
-    heights = real_heights(model, trajectory)
-    found = []
-    for foot in range(t.leg_count):
-        for first, last in stretches(np.asarray(~t.contact[:, foot])):
-            rises = heights[first : last + 1, foot]
-            if not np.isnan(rises).all():
-                highest = first + int(first_highest(rises))
-                found.append(RealSwing(foot, first, highest, float(heights[highest, foot])))
-    return tuple(found)
-
-
-def coupling_note(model: RobotModel, trajectory: Trajectory) -> str:
-    """What a plan should say of motors that share actuators; nothing where none do."""
-    if not model.is_coupled:
-        return ""
-    off = float(np.abs(np.nan_to_num(coupling_residual(model, trajectory))).max())
-    return (
-        f"It takes every stroke as free, but {model.actuator_count} motors drive the {model.motor_count} "
-        f"strokes, which are up to {off * 1000:.1f} mm off: Check says what the feet really do."
-    )
-
-
-def check_coupling(model: RobotModel, trajectory: Trajectory, lift_limit: float) -> Outcome:
-    """What the coupled motors lose, and what the feet then really do.
+def check_made(plan: CheckedPlan, *, is_simulated: bool = False) -> list[Outcome]:
+    """How a robot with shared motors rests, leans, lifts, slides and gets on along a plan.
 
     Args:
-        model: a robot with fewer actuators than motors.
-        trajectory: what is wanted.
-        lift_limit: a swing that rises less drags, m.
+        plan: what is checked.
+        is_simulated: whether the physics judges these waypoints too. It knows more exactly how far the robot
+            goes and whether it walks, so that what forbids it here is a warning then.
     """
-    residual = np.abs(np.nan_to_num(coupling_residual(model, trajectory)))
-    largest = float(residual.max())
-    margin = RuleMargin(RULE, RESIDUAL_LIMIT - largest, "m")
-    swings = real_swings(model, trajectory)
-    dragged = [swing for swing in swings if swing.rise < lift_limit - TOLERANCE]
-    findings = [_dragged(model, trajectory, swing, lift_limit) for swing in dragged]
-    if largest > RESIDUAL_LIMIT:
-        sample, foot, actuator = first_place(residual)
+    made = _made_of(plan)
+    outcomes = [
+        *_rest(made.poses, plan.asked.margin),
+        _strokes(plan.model, made.residual, plan.trajectory.times, made),
+        _lift(made),
+        _slip(made),
+        *_way(made),
+    ]
+    return [_warned(outcome) for outcome in outcomes] if is_simulated else outcomes
+
+
+def _warned(outcome: Outcome) -> Outcome:
+    findings = (replace(finding, severity=Severity.WARNING) for finding in outcome.findings)
+    return replace(outcome, findings=tuple(findings))
+
+
+def _made_of(plan: CheckedPlan) -> MadePlan:
+    """What the robot's motors make of a plan that is checked."""
+    kept = None if plan.way is None else plan.way.kept
+    return made_plan(plan.model, plan.trajectory, plan.waypoints, kept)
+
+
+def check_made_waypoints(model: RobotModel, waypoints: Waypoints) -> list[Outcome]:
+    """What waypoints alone can show of a robot with shared motors: how it rests, leans, lifts and slides."""
+    made = replace(waypoints, strokes=real_strokes(model, waypoints.strokes))
+    times = np.cumsum(waypoints.durations) - waypoints.durations[0]
+    poses = made_poses(model, made, np.arange(waypoints.count), times)
+    residual = waypoints.strokes - made.strokes
+    return [*_rest(poses, 0.0), _strokes(model, residual, times), _steps(model, poses)]
+
+
+def _steps(model: RobotModel, poses: MadePoses) -> Outcome:
+    """A foot that slides far lifts at some time, and feet slide less than the robot goes."""
+    motion = poses.motion
+    slides, rises = motion.slides.sum(axis=0), np.nan_to_num(motion.heights).max(axis=0)
+    reach = float(np.linalg.norm(model.module_centres_robot[:, :2], axis=1).mean())
+    goes = float(np.hypot(np.linalg.norm(motion.middles[-1]), reach * motion.headings[-1]))
+    mean, limit = float(slides.mean()), max(MOST_SLIDING * goes, SLIDING_LIMIT)
+    findings = []
+    for foot in np.nonzero((slides > SLIDING_LIMIT) & (rises < CLEARANCE_LIMIT - TOLERANCE))[0].tolist():
         words = (
-            f"{model.actuator_count} motors cannot make {model.motor_count} strokes: that of motor "
-            f"{actuator + 1} of foot {foot + 1} is {largest * 1000:.1f} mm off at sample {sample + 1}, where "
-            f"{RESIDUAL_LIMIT * 1000:.0f} mm is allowed. {_feet_words(model, trajectory)} "
-            f"{_lifted(swings, dragged)} The other rules judge the planned motion."
+            f"Foot {foot + 1} never comes more than {rises[foot] * 1000:.1f} mm above the ground, and slides "
+            f"by {slides[foot] * 1000:.1f} mm."
         )
-        remedy = "Move feet that share a motor alike, or choose a robot with more motors."
-        place = {
-            "sample": sample,
-            "foot": foot,
-            "actuator": actuator,
-            "time": float(trajectory.times[sample]),
-        }
-        findings.append(found(RULE, Severity.WARNING, words, remedy, largest, RESIDUAL_LIMIT, **place))
-    return Outcome(margin, tuple(findings))
+        value = float(rises[foot])
+        findings.append(found("slip", Severity.ERROR, words, MORE_MOTORS, value, CLEARANCE_LIMIT, foot=foot))
+    if mean > limit:
+        foot = int(first_highest(slides))
+        words = (
+            f"The feet slide by {mean * 1000:.1f} mm on average, and the robot goes {goes * 1000:.1f} mm. "
+            f"Foot {foot + 1} slides most, by {slides[foot] * 1000:.1f} mm."
+        )
+        findings.append(found("slip", Severity.ERROR, words, MOVE_ALIKE, mean, limit, foot=foot))
+    return Outcome(RuleMargin("slip", limit - mean, "m"), tuple(findings))
 
 
-def _dragged(model: RobotModel, t: Trajectory, swing: RealSwing, limit: float) -> Finding:
+def _rest(poses: MadePoses, asked: float) -> Iterator[Outcome]:
+    """The centre of mass stays over the feet that stand, and the body upright."""
+    margins, standing = poses.motion.margins, poses.motion.standing
+    smallest, worst = float(margins.min()), int(first_lowest(margins))
+    reserve, place = max(BALANCE_RESERVE, asked), poses.place(worst)
+    findings = []
+    if not np.isfinite(smallest):
+        words = f"At {place['time']:.1f} s the centre of mass is beyond all feet: the robot falls."
+        findings.append(found("balance", Severity.ERROR, words, OVER_FEET, None, 0.0, **place))
+    elif smallest < reserve - TOLERANCE:
+        words = (
+            f"At {place['time']:.1f} s the centre of mass is {smallest * 1000:.2f} mm inside the edge of the "
+            f"support polygon of {_names(standing[worst])}, which carry it then, where "
+            f"{reserve * 1000:.1f} mm is asked: the robot rocks onto other feet."
+        )
+        findings.append(found("balance", Severity.WARNING, words, OVER_FEET, smallest, reserve, **place))
+    known = smallest if np.isfinite(smallest) else None
+    yield Outcome(RuleMargin("balance", known, "m"), tuple(findings))
+    if known is not None:
+        yield _lean(poses)
+
+
+def _lean(poses: MadePoses) -> Outcome:
+    """The body stays as upright as a walking one in physics."""
+    lean, standing = poses.motion.lean, poses.motion.standing
+    most, worst = float(lean.max()), int(first_highest(lean))
+    margin, place = RuleMargin("lean", TILT_LIMIT - most, "rad"), poses.place(worst)
+    if most <= TILT_LIMIT:
+        return Outcome(margin)
     words = (
-        f"Foot {swing.foot + 1} does not lift in its swing from {t.times[swing.first]:.1f} s: with "
-        f"{model.actuator_count} motors it comes at most {max(swing.rise, 0.0) * 1000:.1f} mm above the "
-        f"standing feet, where {limit * 1000:.0f} mm is needed, so it slides."
+        f"The body leans by {np.degrees(most):.1f}° at {place['time']:.1f} s, since it rests on "
+        f"{_names(standing[worst])} then. At most {np.degrees(TILT_LIMIT):.0f}° are allowed."
     )
-    place = {"sample": swing.highest, "foot": swing.foot, "time": float(t.times[swing.highest])}
-    return found(RULE, Severity.ERROR, words, "Choose a robot with more motors.", swing.rise, limit, **place)
+    return Outcome(margin, (found("lean", Severity.ERROR, words, MOVE_ALIKE, most, TILT_LIMIT, **place),))
 
 
-def _feet_words(model: RobotModel, t: Trajectory) -> str:
-    """How far feet go astray and slide, in words, the body where it should be."""
-    feet = real_feet(model, t.feet_world, t.pose(model))
-    astray = float(np.linalg.norm(feet - t.feet_world, axis=-1).max())
-    slide = float(stance_slip(feet, t.contact).max())
-    return f"Feet go up to {astray * 1000:.1f} mm elsewhere, and slide up to {slide * 1000:.1f} mm standing."
+def _names(standing: Bools) -> str:
+    """(legs,) feet that stand, such as `feet 2, 3 and 5`."""
+    return feet_words(tuple((np.nonzero(standing)[0] + 1).tolist()))
 
 
-def _lifted(swings: tuple[RealSwing, ...], dragged: list[RealSwing]) -> str:
-    """How many swings lift, in words."""
-    if not swings:
-        return "No swing leaves three feet standing to measure from."
-    lifting = len(swings) - len(dragged)
-    if dragged:
-        return f"{lifting or 'None'} of {len(swings)} swings really lift{'' if lifting > 1 else 's'}."
-    least = min(swing.rise for swing in swings)
-    return f"Every foot still lifts, by {least * 1000:.1f} mm or more."
+def _strokes(model: RobotModel, residual: Floats, times: Floats, made: MadePlan | None = None) -> Outcome:
+    """Strokes (n, legs, 3) that are missed by more than the firmware takes for arrived, m."""
+    missed = np.abs(np.nan_to_num(residual))
+    largest = float(missed.max())
+    margin = RuleMargin(RULE, RESIDUAL_LIMIT - largest, "m")
+    if largest <= RESIDUAL_LIMIT:
+        return Outcome(margin)
+    sample, foot, actuator = first_place(missed)
+    what = "" if made is None else f" The robot makes another motion: {made_words(made)}"
+    words = (
+        f"{model.actuator_count} motors cannot make {model.motor_count} strokes: that of motor "
+        f"{actuator + 1} of foot {foot + 1} is {largest * 1000:.1f} mm off at sample {sample + 1}, where "
+        f"{RESIDUAL_LIMIT * 1000:.0f} mm is allowed.{what}"
+    )
+    place = {"sample": sample, "foot": foot, "actuator": actuator, "time": float(times[sample])}
+    return Outcome(
+        margin, (found(RULE, Severity.WARNING, words, MOVE_ALIKE, largest, RESIDUAL_LIMIT, **place),)
+    )
+
+
+def _lift(made: MadePlan) -> Outcome:
+    """A foot that swings leaves the ground."""
+    least = min((swing.rise for swing in made.swings), default=CLEARANCE_LIMIT)
+    margin = RuleMargin("clearance", least - CLEARANCE_LIMIT, "m")
+    return Outcome(margin, tuple(_dragged(made, swing) for swing in made.dragged))
+
+
+def _dragged(made: MadePlan, swing: RealSwing) -> Finding:
+    words = (
+        f"Foot {swing.foot + 1} does not lift in its swing from {made.poses.times[swing.first]:.1f} s: with "
+        f"{made.model.actuator_count} motors it comes at most {max(swing.rise, 0.0) * 1000:.1f} mm above the "
+        f"ground, where {CLEARANCE_LIMIT * 1000:.0f} mm is needed, so it slides."
+    )
+    place = {**made.poses.place(swing.highest), "foot": swing.foot}
+    value, limit = swing.rise, CLEARANCE_LIMIT
+    return found("clearance", Severity.ERROR, words, MORE_MOTORS, value, limit, **place)
+
+
+def _slip(made: MadePlan) -> Outcome:
+    """A foot that should stand stays where it is."""
+    slides, worst = made.slides
+    findings = []
+    for foot in np.nonzero(slides > SLIP_LIMIT + TOLERANCE)[0].tolist():
+        value, pose = float(slides[foot]), worst[foot]
+        words = (
+            f"Foot {foot + 1} slides by {value * 1000:.1f} mm while it stands, most of it near "
+            f"{made.poses.times[pose]:.1f} s. The limit is {SLIP_LIMIT * 1000:.1f} mm."
+        )
+        place = {**made.poses.place(pose), "foot": foot}
+        findings.append(found("slip", Severity.WARNING, words, MOVE_ALIKE, value, SLIP_LIMIT, **place))
+    return Outcome(RuleMargin("slip", SLIP_LIMIT - float(slides.max()), "m"), tuple(findings))
+
+
+def _way(made: MadePlan) -> Iterator[Outcome]:
+    """The robot gets on as planned, by an estimate from geometry and friction alone."""
+    slides, worst = made.slides
+    foot = int(first_highest(slides))
+    place = {**made.poses.place(worst[foot]), "foot": foot}
+    cause = f"Foot {foot + 1} slides most, by {slides[foot] * 1000:.1f} mm in a stance."
+    way = made.way
+    told = {
+        "made_travel": (way.share, f"The body goes {way.made * 1000:.1f} of {way.asked * 1000:.1f} mm"),
+        "made_heading": (
+            way.turn_share,
+            f"The body turns by {np.degrees(way.made_turn):.1f} of {np.degrees(way.asked_turn):.1f}°",
+        ),
+    }
+    for rule, (share, words) in told.items():
+        if share is not None:
+            sentence = f"{words} as friction moves it, by an estimate. {cause}"
+            yield share_outcome(rule, share, sentence, SIMULATE, place, least=LEAST_SHARE + ESTIMATE_SHARE)

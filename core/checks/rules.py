@@ -1,7 +1,7 @@
 """Every rule that a plan must keep before a person may approve it, in one list.
 
-The rules, by kind: `motors`, `balance`, `ground`, `shoes`, `arms`, `document`, `coupling`, `path`
-for the way between waypoints, and `simulation` for what the physics finds.
+The rules, by kind: `motors`, `balance` and `ground`, or `coupling` where motors share actuators, `shoes`,
+`arms`, `document`, `path` for the way between waypoints, and `simulation` for what the physics finds.
 """
 
 from collections.abc import Sequence
@@ -10,9 +10,9 @@ from dataclasses import replace
 from core.checks.arms import check_arms, check_arms_of_waypoints
 from core.checks.balance import check_balance, check_standing_balance
 from core.checks.checked_plan import CheckedPlan
-from core.checks.coupling import check_coupling
+from core.checks.coupling import check_made, check_made_waypoints
 from core.checks.document import check_document, check_origin
-from core.checks.ground import CLEARANCE_LIMIT, check_clearance, check_contact, check_slip
+from core.checks.ground import check_clearance, check_contact, check_slip
 from core.checks.motors import (
     acceleration_note,
     check_deafness,
@@ -43,10 +43,7 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
         check_strokes(plan.model, plan.knots, plan.trajectory.times),
         check_deafness(plan.waypoints, kept),
         check_durations(plan.waypoints, kept),
-        check_balance(plan),
-        check_contact(plan),
-        check_clearance(plan),
-        check_slip(plan),
+        *_motion_rules(plan, is_simulated=simulated is not None),
         *check_shoes(plan),
         *check_arms(plan),
         check_motor_speed(plan),
@@ -54,8 +51,6 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
         check_move_size(plan),
         *check_document(plan),
     ]
-    if plan.model.is_coupled:
-        outcomes.append(check_coupling(plan.model, plan.trajectory, CLEARANCE_LIMIT))
     if plan.way is not None:
         outcomes += check_path(plan.model, plan.trajectory, plan.way)
     outcomes += check_simulation(simulated)
@@ -71,18 +66,36 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
     return replace(verdict, notes=tuple(filter(None, notes)))
 
 
+def _motion_rules(plan: CheckedPlan, *, is_simulated: bool) -> list[Outcome]:
+    """How the robot stands and steps: in the planned motion, or in the one that shared motors make of it."""
+    if plan.model.is_coupled:
+        return check_made(plan, is_simulated=is_simulated)
+    return [check_balance(plan), check_contact(plan), check_clearance(plan), check_slip(plan)]
+
+
 def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
     """What waypoints alone can show: range, durations, deafness; by kinematics balance, shoes, arms."""
     outcomes = [
         check_strokes(model, waypoints),
         check_deafness(waypoints),
         check_durations(waypoints),
-        check_standing_balance(model, waypoints),
+        *(
+            check_made_waypoints(model, waypoints)
+            if model.is_coupled
+            else [check_standing_balance(model, waypoints)]
+        ),
         *check_shoes_of_waypoints(model, waypoints),
         *check_arms_of_waypoints(model, waypoints),
     ]
     findings = [finding for outcome in outcomes for finding in outcome.findings]
     return _verdict(model, waypoints, findings, outcomes)
+
+
+def _standing_rules(model: RobotModel, waypoints: Waypoints) -> list[Outcome]:
+    """How the robot stands at its waypoints, as far as strokes alone say."""
+    if model.is_coupled:
+        return check_made_waypoints(model, waypoints)
+    return [check_standing_balance(model, waypoints)]
 
 
 def _verdict(

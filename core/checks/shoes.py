@@ -4,14 +4,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.arrays import Floats, first_lowest
 from core.checks.checked_plan import CheckedPlan, knot_place
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import RobotModel
 from core.robot.shoes import SHOE_GAP, foot_distances, foot_pairs
-from core.wire.executed_path import moving_feet
-from core.wire.waypoint_merging import robot_feet
+from core.wire.executed_path import along_moves
 from core.wire.waypoints import Waypoints
 
 MOVE_APART = "Shorten the step, or move the footholds apart."
@@ -44,6 +45,8 @@ def check_shoes(plan: CheckedPlan) -> list[Outcome]:
     diameter = plan.model.shoe_diameter
     if diameter is None:
         return []
+    if plan.model.is_coupled:
+        return check_shoes_of_waypoints(plan.model, plan.waypoints)
     knots = foot_distances(plan.trajectory.feet_world)
     moves, on_way = _distances_on_way(plan.model, plan.waypoints)
     nearest = []
@@ -79,12 +82,11 @@ def check_shoes_of_waypoints(model: RobotModel, waypoints: Waypoints) -> list[Ou
     return [_outcome(model, diameter, nearest)]
 
 
-def _distances_on_way(model: RobotModel, waypoints: Waypoints) -> tuple[Floats, Floats]:
+def _distances_on_way(model: RobotModel, waypoints: Waypoints) -> tuple[NDArray[np.int64], Floats]:
     """(m,) waypoint to which the robot is under way, 0 at the first, and (m, pairs) distances there, m."""
-    moves, feet = moving_feet(model, waypoints.strokes)
-    first = foot_distances(robot_feet(model, waypoints.strokes[:1]))
-    distances = np.concatenate([first, foot_distances(feet)])
-    return np.append(0, moves), np.where(np.isfinite(distances), distances, np.inf)
+    moves, ways = along_moves(waypoints.strokes)
+    distances = foot_distances(feet_in_robot(model, ways))
+    return moves, np.where(np.isfinite(distances), distances, np.inf)
 
 
 def _move_words(move: int) -> str:

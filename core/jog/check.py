@@ -6,14 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats, first_lowest, first_place
-from core.checks.balance import BALANCE_RESERVE, STROKE_BALANCE_SLACK
+from core.checks.balance import STROKE_BALANCE_SLACK
 from core.checks.ground import CLEARANCE_LIMIT
 from core.findings import Finding, Severity, found
 from core.jog.steps import Axis, JogStep, jog_range, jog_strokes, jog_way, within_range
-from core.motion.balance import STANDING_DEPTH
+from core.motion.balance import BALANCE_RESERVE, STANDING_DEPTH
 from core.motion.support_polygon import stability_margins
 from core.robot.coupled_strokes import heights_over_standing, real_strokes
-from core.robot.kinematics import BodyPose, walker_feet
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import RobotModel
 from core.wire.robot_time import ARRIVAL_THRESHOLD
 
@@ -99,12 +99,6 @@ def check_jog(model: RobotModel, measured: Floats, steps: Sequence[JogStep]) -> 
     all_found = [*_threshold(start, made, steps), *_balance(model, way, margins), *findings]
     ordered = tuple(sorted(all_found, key=lambda f: f.severity is not Severity.ERROR))
     return JogCheck(start, wanted, made, way, feet_in_robot(model, made), _known(margins[-1]), ordered)
-
-
-def feet_in_robot(model: RobotModel, strokes: Floats) -> Floats:
-    """(..., legs, 3) platform centres in the robot's frame by forward kinematics, m."""
-    lead = strokes.shape[:-2]
-    return walker_feet(model, strokes, BodyPose(np.zeros((*lead, 3)), np.zeros(lead)))
 
 
 def _beyond(model: RobotModel, measured: Floats) -> tuple[Finding, ...]:

@@ -10,8 +10,9 @@ import numpy as np
 from core.arrays import Floats
 from core.errors import InputError
 from core.gait.gait import Gait
-from core.jog.check import DOWN_DEPTH, feet_in_robot
+from core.jog.check import DOWN_DEPTH
 from core.motion.trajectory import quarter_turn
+from core.robot.kinematics import feet_in_robot
 from core.robot.leg import foot_from_strokes
 from core.robot.model import RobotModel
 from core.segments.segment_table import MOST_STEPS, Segment, SegmentTable, SegmentVocabulary, require_heights

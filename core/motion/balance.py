@@ -8,6 +8,8 @@ from core.motion.support_polygon import stability_margins, trajectory_pressure
 from core.motion.trajectory import Trajectory
 from core.robot.model import RobotModel
 
+BALANCE_RESERVE = 0.001
+"""Below this distance to the polygon's edge the check warns, m."""
 STANDING_DEPTH = 0.0005
 """Feet within this of the deepest one are taken to stand where only waypoints are known, m."""
 

@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from core.arrays import Bools, Floats, interpolated, stretches
 from core.motion.support_polygon import stability_margins
+from core.motion.way_made import way_made
 from core.physics.motion import SimulatedMotion
 from core.physics.motors import motor_force_limits
 from core.physics.problem import Rig, SimulationProblem
@@ -55,12 +56,13 @@ def report(problem: SimulationProblem, motion: SimulatedMotion) -> SimulationRep
         points[-1, :2] - points[0, :2] for points in (motion.body_world[arrivals], planned[0])
     )
     heading = np.unwrap(np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0]))[arrivals]
+    middles = soles(problem, motion, rotation)[..., :2].mean(axis=1)
     return SimulationReport(
         body_error=body_error,
         feet_error=feet_error,
         distance=float(np.linalg.norm(way)),
         planned_distance=float(np.linalg.norm(planned_way)),
-        goal_gap=float(np.linalg.norm(way - planned_way)),
+        way=way_made(_planned_way(problem), (middles[arrivals], heading)),
         heading=float(heading[-1] - heading[0]),
         planned_heading=float(planned[1][-1] - planned[1][0]),
         max_tilt=float(tilt[worst]),
@@ -123,6 +125,12 @@ def soles(problem: SimulationProblem, motion: SimulatedMotion, rotation: Floats)
     stay where they are.
     """
     return np.asarray(motion.feet_world - problem.model.sole_depth * rotation[:, None, :, 2])
+
+
+def _planned_way(problem: SimulationProblem) -> tuple[Floats, Floats]:
+    """The plan's middles of the feet (count, 2), m, and headings (count,), rad, at all waypoints."""
+    _, heading, feet = _planned_at(problem, problem.waypoints.count)
+    return feet[..., :2].mean(axis=1), heading
 
 
 def _planned_at(problem: SimulationProblem, reached: int) -> tuple[Floats, Floats, Floats]:

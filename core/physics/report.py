@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from core.arrays import Floats
+from core.motion.way_made import WayMade
 
 
 @dataclass(frozen=True, eq=False)
@@ -15,8 +16,7 @@ class SimulationReport:
         feet_error: (legs,) the same of each foot, m.
         distance: horizontal way of the body from first to last arrival, m.
         planned_distance: the plan's, m.
-        goal_gap: horizontal distance between where the body ends and where the plan does, both taken from
-            the first arrival, m.
+        way: how much of the whole plan's way and turn is made.
         heading: turn of the body about the vertical from first to last arrival, rad.
         planned_heading: the plan's, rad.
         max_tilt: largest angle between the body's axis and the vertical, rad.
@@ -47,7 +47,7 @@ class SimulationReport:
     feet_error: Floats
     distance: float
     planned_distance: float
-    goal_gap: float
+    way: WayMade
     heading: float
     planned_heading: float
     max_tilt: float

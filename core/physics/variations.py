@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import InputError
-from core.physics.findings import SWING_LIMIT, TILT_LIMIT
+from core.physics.findings import SWING_LIMIT, TILT_LIMIT, walks
 from core.physics.motors import LEAST_SHARE
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
@@ -49,6 +49,8 @@ class VariedRun:
         max_tilt: largest angle between the body's axis and the vertical, rad.
         swing_load: largest share of any swing in which its foot carries load.
         distance: horizontal way of the body, m.
+        way_share: part of the asked way that is made; None where none is asked.
+        turn_share: the same of the turn.
         feet_error: mean of the feet's errors against the plan, m.
         ended_early: why it ended before the last waypoint, or "".
     """
@@ -58,14 +60,17 @@ class VariedRun:
     max_tilt: float
     swing_load: float
     distance: float
+    way_share: float | None
+    turn_share: float | None
     feet_error: float
     ended_early: str
 
     @property
     def walks(self) -> bool:
-        """Whether it neither fell nor rocked onto a foot that should be in the air."""
+        """Whether it neither fell nor rocked onto a foot that should be in the air, and got on."""
         is_upright = self.max_tilt <= TILT_LIMIT and self.swing_load <= SWING_LIMIT
-        return is_upright and not self.fell and not self.ended_early
+        gets_on = all(share is None or walks(share) for share in (self.way_share, self.turn_share))
+        return is_upright and gets_on and not self.fell and not self.ended_early
 
 
 def variations(physics: PhysicsSet, count: int, seed: int, motors: int) -> tuple[Variation, ...]:
@@ -96,6 +101,8 @@ def varied_run(variation: Variation, report: SimulationReport) -> VariedRun:
         max_tilt=report.max_tilt,
         swing_load=float(report.swing_load.max()),
         distance=report.distance,
+        way_share=report.way.share,
+        turn_share=report.way.turn_share,
         feet_error=report.feet_mean_error,
         ended_early=report.ended_early,
     )

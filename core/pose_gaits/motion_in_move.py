@@ -9,7 +9,7 @@ from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.pose_gait import PoseGait
 from core.robot.arms import least_arm_gaps
-from core.wire.waypoint_merging import robot_feet
+from core.robot.kinematics import feet_in_robot
 
 SAMPLES = 41
 """Places along a move that are looked at, both ends included; an odd number, so that the middle is one."""
@@ -67,7 +67,7 @@ def motions_in_moves(gait: PoseGait, samples: int = SAMPLES) -> list[MotionInMov
     first, last = (1.0 - shares)[:, None, None], shares[:, None, None]
     mixed = first * gait.strokes[:-1, None] + last * gait.strokes[1:, None]
     headings = (1 - shares) * gait.headings[:-1, None] + shares * gait.headings[1:, None]
-    feet_robot = robot_feet(problem.model, mixed.reshape(-1, legs, 3)).reshape(mixed.shape)
+    feet_robot = feet_in_robot(problem.model, mixed.reshape(-1, legs, 3)).reshape(mixed.shape)
     if problem.is_turned:
         headings = _fitting_headings(feet_robot, gait.feet[:-1], standing, headings)
     turned = _turned(feet_robot, headings)

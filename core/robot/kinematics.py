@@ -135,6 +135,13 @@ def walker_feet(model: RobotModel, strokes: Floats, pose: BodyPose) -> Floats:
     return feet_in_world(model, foot_from_strokes(model.leg, strokes), pose)
 
 
+def feet_in_robot(model: RobotModel, strokes: Floats) -> Floats:
+    """The same in the robot's frame, (..., legs, 3) m."""
+    feet_module = foot_from_strokes(model.leg, strokes)
+    turned = np.einsum("lij,...lj->...li", model.R_robot_from_module, feet_module)
+    return np.asarray(turned + model.module_centres_robot)
+
+
 def _within(strokes: Floats, limits: StrokeLimits, tolerance: float = 1e-9) -> Bools:
     # nan compares false: a rod that is too short is outside.
     return (strokes >= limits.lower - tolerance) & (strokes <= limits.upper + tolerance)

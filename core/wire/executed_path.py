@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from core.arrays import Bools, Floats
 from core.motion.support_polygon import stability_margins
 from core.robot.coupled_strokes import heights_over_standing
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import RobotModel
-from core.wire.waypoint_merging import WaypointPlan, robot_feet
+from core.wire.waypoint_merging import WaypointPlan
 
 STEPS = 8
 """Places that are looked at a move, its end included."""
@@ -37,20 +38,20 @@ class ExecutedPath:
     propped_margins: Floats
 
 
-def moving_feet(model: RobotModel, strokes: Floats) -> tuple[NDArray[np.int64], Floats]:
-    """The feet along each move between waypoints, in the robot's frame.
+def along_moves(strokes: Floats) -> tuple[NDArray[np.int64], Floats]:
+    """Strokes along the moves between waypoints, which are straight in motor space.
 
     Args:
-        model: a robot whose motors are free of each other.
         strokes: (count, legs, 3) of each waypoint, m.
 
     Returns:
-        (m,) waypoint to which the robot is under way, and (m, legs, 3) the feet there, m; `STEPS` a move.
+        (m,) waypoint to which the robot is under way, 0 at the first one, and (m, legs, 3) the strokes
+        there, m; `STEPS` a move after the first waypoint.
     """
     shares = np.arange(1, STEPS + 1) / STEPS
     ways = strokes[:-1, None] + shares[:, None, None] * (strokes[1:] - strokes[:-1])[:, None]
-    moves = np.repeat(np.arange(1, len(strokes)), STEPS)
-    return moves, robot_feet(model, ways.reshape(-1, *strokes.shape[1:]))
+    moves = np.append(0, np.repeat(np.arange(1, len(strokes)), STEPS))
+    return moves, np.concatenate([strokes[:1], ways.reshape(-1, *strokes.shape[1:])])
 
 
 def executed_path(model: RobotModel, plan: WaypointPlan) -> ExecutedPath:
@@ -65,7 +66,8 @@ def executed_path(model: RobotModel, plan: WaypointPlan) -> ExecutedPath:
         model: a robot whose motors are free of each other.
         plan: at least two waypoints.
     """
-    moves, feet = moving_feet(model, plan.waypoints.strokes)
+    every, ways = along_moves(plan.waypoints.strokes)
+    moves, feet = every[1:], feet_in_robot(model, ways[1:])
     at_end = np.arange(1, len(moves) + 1) % STEPS == 0
     standing = np.asarray(np.where(at_end[:, None], plan.contact[moves], plan.standing[moves]))
     middle = np.zeros((len(moves), 2))

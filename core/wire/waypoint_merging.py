@@ -15,7 +15,7 @@ from core.arrays import SAME, Bools, Floats, stretches
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import heights_over_standing
-from core.robot.leg import foot_from_strokes
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import RobotModel
 from core.wire.robot_time import ARRIVED, PUBLISHED, far_motors
 from core.wire.waypoint_path import cut_parts, stays_near, waypoints_from_trajectory
@@ -63,16 +63,9 @@ class WaypointPlan:
         return tuple(bool(row.any() and row[walking].all()) for row in self.contact)
 
 
-def robot_feet(model: RobotModel, strokes: Floats) -> Floats:
-    """(n, legs, 3) feet in the robot's frame by forward kinematics, m."""
-    feet = foot_from_strokes(model.leg, strokes)
-    turned = np.einsum("lij,nlj->nli", model.R_robot_from_module, feet)
-    return np.asarray(turned + model.module_centres_robot)
-
-
 def grounded(model: RobotModel, trajectory: Trajectory, strokes: Floats) -> Bools:
     """(n, legs) feet on the ground: those that stand by the plan, and those that touch it in their swing."""
-    heights = heights_over_standing(robot_feet(model, strokes), trajectory.contact)
+    heights = heights_over_standing(feet_in_robot(model, strokes), trajectory.contact)
     touching = np.nan_to_num(heights, nan=math.inf) <= ON_GROUND + SAME
     return np.asarray(trajectory.contact | touching)
 
@@ -117,7 +110,7 @@ def plan_of_knots(
     contact = grounded(model, trajectory, knots.strokes)
     kept = list(range(knots.count))
     if merge:
-        kept = kept_knots(knots, contact, needed_knots(robot_feet(model, knots.strokes), contact), merge)
+        kept = kept_knots(knots, contact, needed_knots(feet_in_robot(model, knots.strokes), contact), merge)
     whole = _selected(knots, trajectory.times, contact, kept, merge)
     return whole if stop_bound is None else cut_plan(whole, stop_bound)
 

@@ -5,6 +5,7 @@ import numpy as np
 from core.atlas.documents import drawn_document
 from core.atlas.point import AtlasPoint
 from core.atlas.row import AtlasRow, RowStatus
+from core.checks.made_plan import unmade_words
 from core.errors import FootfallError
 from core.gait.gait import motion_problem
 from core.motion.balance import balance_margins
@@ -51,6 +52,8 @@ def drawn_plan(point: AtlasPoint, model: RobotModel) -> tuple[Trajectory, Waypoi
     check = check_motion(problem, motion)
     if not check.confirmed:
         return AtlasRow(point.number, RowStatus.FAILED, "The check does not confirm the motion.")
+    if unmade := unmade_words(model, motion):
+        return AtlasRow(point.number, RowStatus.FAILED, unmade)
     return motion, plan_waypoints(model, motion, gait.options.merge, gait.options.stop_bound)
 
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.arrays import Bools
+from core.checks.made_plan import unmade_words
 from core.errors import InputError
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.trajectory import Trajectory, turn_trajectory
@@ -108,6 +109,8 @@ def fastest_timing(
     if status is SolveStatus.SOLVED and not (check := check_motion(timed, trajectory)).confirmed:
         words = f"The motion found misses {check.worst_family} by {check.max_violation:.1e} (SI)."
         status, explanation = SolveStatus.FAILED, (words,)
+    if status is SolveStatus.SOLVED and (unmade := unmade_words(timed.model, trajectory)):
+        status, explanation = SolveStatus.FAILED, (unmade,)
     return TimingResult(
         status=status,
         phases=_phases(timed),

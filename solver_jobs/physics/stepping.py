@@ -14,8 +14,7 @@ from core.physics.metrics import FALL_TILT, rotations, tilts
 from core.physics.motors import motor_speeds
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.ramp import TURN, MotorTrajectory, motor_trajectory
-from core.robot.kinematics import BodyPose
-from core.wire.waypoint_merging import robot_feet
+from core.robot.kinematics import BodyPose, feet_in_robot
 from solver_jobs.physics.mjcf import LINK_RELAXATION, mjcf_text, rest_height
 from solver_jobs.physics.states import Layout
 
@@ -193,7 +192,7 @@ def advance(runs: Sequence[SimulatedRun], pool: Sequence[mujoco.MjData]) -> None
 
 def _start(problem: SimulationProblem) -> tuple[BodyPose, Floats]:
     """The body where the plan begins, its deepest foot on the ground, and (legs, 3) feet in its frame, m."""
-    feet_robot = robot_feet(problem.model, problem.waypoints.strokes[:1])[0]
+    feet_robot = feet_in_robot(problem.model, problem.waypoints.strokes[:1])[0]
     apart: NDArray[np.int64] = np.flatnonzero(~np.isfinite(feet_robot).all(axis=-1))
     if apart.size:
         raise InfeasibleError(

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from core.checks.made_plan import RULE, unmade_words
 from core.errors import FootfallError
 from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem, with_return
 from core.motion.trajectory import Trajectory
@@ -99,6 +100,8 @@ class FrontierSearch:
     def run(self) -> Frontier:
         """Finds the frontier."""
         live, gait = self._live()
+        if unmade := self._unmade(live, gait):
+            return unmade
         count, gait = self._exact(live, gait) if self.exact else (live, gait)
         lacking = self._lacking(gait, count)
         best = self._at(gait, count)
@@ -112,6 +115,14 @@ class FrontierSearch:
             explanation=lacking.explanation,
             motion=self._last if self.exact or count == 0 else self._start(self._problem(best)),
         )
+
+    def _unmade(self, count: int, gait: Gait) -> Frontier | None:
+        """No frontier, where shared motors make other motions than the ones found; told by the gait's own."""
+        for tried in (self.gait, self._at(gait, count)):
+            motion = self._start(self._problem(tried)) if self.model.is_coupled else None
+            if motion is not None and (words := unmade_words(self.model, motion)):
+                return Frontier(tried, 0.0, self.turns, 0.0, False, (RULE,), (words,), None)
+        return None
 
     def _at(self, gait: Gait, count: int) -> Gait:
         """The gait with a step of so many units."""

@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 
 from core.checks import arms as arm_check
-from core.checks import balance as balance_check
+from core.checks import balance, made_plan
 from core.checks import coupling as coupling_check
 from core.checks import document as document_check
 from core.checks import ground as ground_check
 from core.checks import motors as motor_check
 from core.checks import path as path_check
 from core.checks import shoes as shoe_check
+from core.motion.balance import BALANCE_RESERVE
+from core.motion.way_made import WARNED_SHARE
 from core.physics import findings as physics
 from core.robot.arms import ARM_GAP
 from core.robot.model import load_robot
@@ -26,13 +28,16 @@ from tests.support.studio_process import PROJECT
 TEXT = (PROJECT / "docs" / "checks.md").read_text()
 ROWS = re.findall(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.*?) \| (.*?) \|$", TEXT, re.MULTILINE)
 STROKE = load_robot("deltawalker").stroke
+SHARE = f"{WARNED_SHARE * 100:.0f} %"
+PART = f"{physics.TRAVEL_SHARE * 100:.0f} %"
 SHOE = load_robot("deltawalker").shoe_diameter or 0.0
 MODULES = (
     arm_check,
-    balance_check,
+    balance,
     coupling_check,
     document_check,
     ground_check,
+    made_plan,
     motor_check,
     path_check,
     shoe_check,
@@ -50,7 +55,8 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
         text = (PROJECT / (module.__name__.replace(".", "/") + ".py")).read_text()
         named |= set(re.findall(r'(?:RuleMargin|found|Finding)\(\s*"(\w+)"', text))
         named |= set(re.findall(r'^RULE = "(\w+)"', text, re.MULTILINE))
-        named |= set(re.findall(r'^    "(path_\w+)": ', text, re.MULTILINE))
+        named |= set(re.findall(r'^ +"((?:path|made)_\w+)": ', text, re.MULTILINE))
+        named |= set(re.findall(r'rule = report\.way, "(\w+)"', text))
     assert {row[0] for row in ROWS} == named
 
 
@@ -62,7 +68,7 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
         ("move_size", [f"{ARRIVAL_THRESHOLD * 1000:.1f} mm"]),
         ("deafness", [f"{motor_check.DEAF_LIMIT} s"]),
         ("duration", [f"{SHORTEST_DURATION:g} to {LONGEST_DURATION:g} s"]),
-        ("balance", ["0 mm", f"{balance_check.BALANCE_RESERVE * 1000:.1f} mm, or the gait's own margin"]),
+        ("balance", ["0 mm", f"{BALANCE_RESERVE * 1000:.1f} mm, or the gait's own margin"]),
         ("contact", [f"{ground_check.CONTACT_LIMIT * 1000:.2f} mm"]),
         ("slip", [f"{ground_check.SLIP_LIMIT * 1000:.1f} mm"]),
         ("clearance", [f"{ground_check.CLEARANCE_LIMIT * 1000:.1f} mm"]),
@@ -83,11 +89,20 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
         ("simulated_swing", [f"{physics.SWING_LIMIT * 100:.0f} %"]),
         ("simulated_slip", [f"{physics.SLIP_LIMIT * 1000:.1f} mm"]),
         ("simulated_balance", [f"{physics.BALANCE_LIMIT * 1000:.0f} mm"]),
+        ("lean", [f"{np.degrees(physics.TILT_LIMIT):.0f}°"]),
+        ("made_travel", [SHARE]),
+        ("made_heading", [SHARE]),
         (
             "simulated_travel",
-            [f"{physics.TRAVEL_LIMIT * 1000:.1f} mm, or {physics.TRAVEL_SHARE * 100:.0f} % of the way"],
+            [
+                SHARE,
+                f"{physics.TRAVEL_LIMIT * 1000:.1f} mm, or {physics.TRAVEL_SHARE * 100:.0f} % of the way",
+            ],
         ),
-        ("simulated_heading", [f"{np.degrees(physics.HEADING_LIMIT):.0f}°"]),
+        (
+            "simulated_heading",
+            [SHARE, f"{np.degrees(physics.HEADING_LIMIT):.0f}°, or {PART} of the turn"],
+        ),
         ("simulated_motors", [f"{physics.TRACK_LIMIT * 1000:.1f} mm"]),
         ("simulated_force", [f"{physics.SATURATION_LIMIT * 100:.0f} %"]),
     ],

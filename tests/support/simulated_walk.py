@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from app.plans.plan import Plan, make_plan
+from app.plans.make_plan import make_plan
+from app.plans.plan import Plan
 from app.simulation.problem import simulation_problem
 from core.arrays import Floats
 from core.library.library import library

@@ -151,9 +151,7 @@ def _physics(gait: PoseGait, variations: int) -> Row:
     problem = pose_gait_problem(gait)
     figures = report(problem, simulate(problem))
     row: Row = {
-        "physics_way_%": round(100.0 * figures.distance / figures.planned_distance, 1)
-        if figures.planned_distance > NO_WAY
-        else None,
+        "physics_way_%": None if figures.way.share is None else round(100.0 * figures.way.share, 1),
         "physics_heading_deg": round(float(np.degrees(figures.heading)), 2),
         "physics_tilt_deg": round(float(np.degrees(figures.max_tilt)), 2),
         "physics_swing_load": round(float(figures.swing_load.max()), 3),

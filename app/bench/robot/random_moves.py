@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Bools, Floats
-from core.robot.kinematics import actuator_plane_pose, free_strokes
+from core.robot.kinematics import actuator_plane_pose, feet_in_robot, free_strokes
 from core.robot.model import load_robot
 from core.wire.messages import HIGHEST_MM, LOWEST_MM, MOTORS
-from core.wire.waypoint_merging import robot_feet
 
 LOWEST, HIGHEST = LOWEST_MM / 1000.0, HIGHEST_MM / 1000.0
 LEG_MOTORS = 3
@@ -105,7 +104,7 @@ def _body(here: Floats, length: float, dice: np.random.Generator) -> Floats | No
 def _body_place(strokes: Floats) -> Floats:
     """(3,) centre of mass over feet at their homes, m (inverse of `body_strokes`)."""
     model = load_robot("deltawalker")
-    feet = robot_feet(model, strokes.reshape(1, -1, LEG_MOTORS))[0]
+    feet = feet_in_robot(model, strokes.reshape(1, -1, LEG_MOTORS))[0]
     return np.asarray((model.module_centres_robot - feet).mean(axis=0) + [0.0, 0.0, model.com_height])
 
 

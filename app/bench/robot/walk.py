@@ -19,11 +19,11 @@ from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import Cost
-from core.robot.kinematics import free_strokes
+from core.robot.kinematics import feet_in_robot, free_strokes
 from core.robot.model import RobotModel, load_robot
 from core.wire.messages import HIGHEST_MM, LOWEST_MM
 from core.wire.robot_time import stop_time
-from core.wire.waypoint_merging import WaypointPlan, plan_of_knots, plan_waypoints, robot_feet
+from core.wire.waypoint_merging import WaypointPlan, plan_of_knots, plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus, solve_live
 
@@ -110,7 +110,7 @@ def walked(model: RobotModel, plan: WaypointPlan) -> Walked:
         reached.append(board.strokes)
     stood = np.array(reached)
     worst = float(np.abs(stood - waypoints.strokes).max())
-    return Walked(seconds, worst, _least_rise(robot_feet(model, stood), plan))
+    return Walked(seconds, worst, _least_rise(feet_in_robot(model, stood), plan))
 
 
 def _least_rise(feet: Floats, plan: WaypointPlan) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 
 from app.bench.common.measure import Row, milliseconds
 from app.bench.common.random_drawings import Drawing, Family, is_refused, random_drawing
-from app.plans.plan import make_plan
+from app.plans.make_plan import make_plan
 from app.simulation.problem import simulation_problem
 from core.errors import FootfallError
 from core.findings import Severity

@@ -18,7 +18,7 @@ from app.documents.gait_json import parse_gait
 from app.export.formats import NEED_NO_MOTION, ExportFormat, export
 from app.export.import_gait import gait_of_recording
 from app.export.source import Exportable, exportable_file, exportable_plan
-from app.plans.plan import make_plan
+from app.plans.make_plan import make_plan
 from core.errors import FootfallError, InputError
 from core.gait.gait import Gait
 from core.gait.recording import Recording, RecordingForm

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from app.export.formats import ExportFormat, export
 from app.export.source import exportable_plan
-from app.plans.plan import make_plan
+from app.plans.make_plan import make_plan
 from core.library.library import library
 from solver_jobs import solve_live
 from tests.support.studio_process import wait_for

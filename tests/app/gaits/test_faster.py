@@ -11,7 +11,8 @@ import pytest
 from app.common.json import Json
 from app.documents.gait_json import gait_from_content, motion_hash
 from app.gaits.faster import FasterGaits
-from app.plans.plan import Plan, make_plan
+from app.plans.make_plan import make_plan
+from app.plans.plan import Plan
 from app.plans.walk_figures import plan_figures, pose_figures
 from core.errors import InputError, StateError
 from core.gait.gait import Gait, with_iterations

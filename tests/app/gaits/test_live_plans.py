@@ -21,7 +21,7 @@ from app.gaits.live_plans import (
 from app.gaits.normalise import normalise
 from app.gaits.views import plan_view
 from app.jobs.timing_view import timing_content
-from app.plans.plan import make_plan
+from app.plans.make_plan import make_plan
 from app.plans.reach_outline_view import CORNERS, reach_rings
 from core.errors import InputError, StateError
 from core.gait.gait import Gait, heading_step, motion_problem

@@ -9,7 +9,7 @@ import pytest
 
 from app.common.json import Json
 from app.gaits.pose_searches import PoseAnswer, PoseSearches
-from app.plans.plan import make_plan
+from app.plans.make_plan import make_plan
 from core.errors import StateError
 from core.gait.gait import Gait
 from core.library.library import library

@@ -11,7 +11,8 @@ import pytest
 from app.documents.gait_json import gait_content, gait_from_content, motion_hash
 from app.gaits.normalise import normalise
 from app.gaits.pose_searches import result_content
-from app.plans.plan import PlanSource, make_plan, verdict_of
+from app.plans.make_plan import make_plan
+from app.plans.plan import PlanSource, verdict_of
 from app.plans.provenance import with_found_poses
 from app.plans.sequence_plan import plan_of
 from core.errors import InputError, StateError

@@ -17,7 +17,8 @@ from app.export.source import Exportable, exportable_plan
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.sequence_documents import PartReference, made_sequence
 from app.gaits.service import GaitService
-from app.plans.plan import Plan, PlanSource, make_plan, verdict_of
+from app.plans.make_plan import make_plan
+from app.plans.plan import Plan, PlanSource, verdict_of
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.undo.history import Author

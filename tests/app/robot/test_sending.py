@@ -8,7 +8,7 @@ import pytest
 
 from app.documents.gait_json import gait_content, gait_from_content, motion_hash
 from app.documents.migrations import filled
-from app.plans.plan import make_plan
+from app.plans.make_plan import make_plan
 from core.errors import InputError
 from core.library.library import library
 from solver_jobs import solve_live

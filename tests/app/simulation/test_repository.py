@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from app.common.version import VERSION
-from app.plans.plan import Plan, make_plan
+from app.plans.make_plan import make_plan
+from app.plans.plan import Plan
 from app.simulation.problem import (
     key_before,
     physics_content,

@@ -14,10 +14,10 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.gait.manual_motion import manual_motion
-from core.jog.check import feet_in_robot
 from core.jog.pose_to_segment import SAME, PoseSegment, pose_to_segment
 from core.jog.steps import Axis, JogPart, JogStep, jog_strokes
 from core.library.library import library
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import load_robot
 
 WALKER = load_robot("deltawalker")

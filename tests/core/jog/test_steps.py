@@ -14,8 +14,9 @@ from hypothesis.extra.numpy import arrays
 from core.arrays import Floats
 from core.errors import InputError
 from core.findings import Finding, Severity
-from core.jog.check import JogCheck, check_jog, feet_in_robot
+from core.jog.check import JogCheck, check_jog
 from core.jog.steps import Axis, JogPart, JogStep, jog_range, jog_strokes, within_range
+from core.robot.kinematics import feet_in_robot
 from core.robot.leg import strokes_from_foot
 from core.robot.model import ROBOT_NAMES, load_robot
 from core.wire.robot_time import ARRIVAL_THRESHOLD, START_MOVE

@@ -11,7 +11,7 @@ from core.findings import Finding, Severity
 from core.physics.findings import SLIP_LIMIT, TILT_LIMIT, physics_outcomes
 from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
-from core.physics.problem import SimulationProblem
+from core.physics.problem import Rig, SimulationProblem
 from tests.support import synthetic_motions as made
 from tests.support.synthetic_motions import PLANNED, PROBLEM
 
@@ -97,18 +97,68 @@ def test_a_centre_of_mass_beyond_the_carrying_feet_is_a_warning() -> None:
     assert "3.0 mm outside the middles of the feet that carry load at 0.7 s" in finding.sentence
 
 
-def test_a_body_that_stays_behind_is_a_warning_also_to_the_side() -> None:
-    body = PLANNED.body_world.copy()
-    body[:, 1] = np.linspace(0.0, 0.0035, len(body))
-    finding = only(replace(PLANNED, body_world=body))
-    assert (finding.rule, finding.severity) == ("simulated_travel", Severity.WARNING)
-    assert "ends 3.5 mm from where the plan ends, more than 3.0 mm; it goes 5.3 of 4.0 mm" in finding.sentence
+WALK = replace(
+    PROBLEM.plan, feet_world=PROBLEM.plan.feet_world + PROBLEM.plan.body_world[:, None] * [1.0, 1.0, 0.0]
+)
+"""The plan with feet that go along, so that it asks for a way of 4 mm."""
 
 
-def test_a_body_that_turns_unasked_is_a_warning() -> None:
-    finding = only(made.turned(PLANNED, np.linspace(0.0, -0.06, len(PLANNED.times))))
-    assert (finding.rule, finding.severity) == ("simulated_heading", Severity.WARNING)
-    assert "turns by -3.4°; the plan says 0.0°" in finding.sentence
+def going(share: float, aside: float = 0.0, turn: float = 0.0) -> SimulatedMotion:
+    """The robot that makes a part of the way, goes aside, m, and turns, rad."""
+    run = made.turned(made.as_planned(made.problem_of(WALK)), np.linspace(0.0, turn, len(PLANNED.times)))
+    feet = run.feet_world.copy()
+    feet[..., 0] -= (1.0 - share) * np.linspace(0.0, 0.004, len(feet))[:, None]
+    feet[..., 1] += np.linspace(0.0, aside, len(feet))[:, None]
+    return replace(run, feet_world=feet)
+
+
+def of_way(motion: SimulatedMotion, rule: str = "simulated_travel") -> list[Finding]:
+    return [one for one in findings(motion, made.problem_of(WALK)) if one.rule == rule]
+
+
+@pytest.mark.parametrize(
+    ("share", "severity"),
+    [(0.95, None), (0.901, None), (0.89, Severity.WARNING), (0.51, Severity.WARNING), (0.49, Severity.ERROR)],
+)
+def test_less_than_nine_tenths_of_the_way_is_a_warning_and_less_than_half_an_error(
+    share: float, severity: Severity | None
+) -> None:
+    found = of_way(going(share))
+    assert [one.severity for one in found] == ([] if severity is None else [severity])
+    for one in found:
+        assert one.value == pytest.approx(share, abs=1e-6)
+        assert one.foot is not None
+        assert one.time is not None
+        assert f"goes {share * 4:.1f} of 4.0 mm, {share * 100:.0f} % of its way" in one.sentence
+
+
+def test_a_robot_that_goes_backwards_is_an_error() -> None:
+    assert [one.severity for one in of_way(going(-0.5))] == [Severity.ERROR]
+
+
+def test_a_robot_that_makes_its_way_but_ends_aside_is_a_warning() -> None:
+    (one,) = of_way(going(1.0, aside=0.0035))
+    assert one.severity is Severity.WARNING
+    assert "ends 3.5 mm from where the plan ends, more than 3.0 mm" in one.sentence
+    assert of_way(going(1.0, aside=0.0029)) == []
+
+
+def test_a_gait_that_is_asked_to_go_nowhere_is_judged_by_millimetres_and_degrees() -> None:
+    feet = PLANNED.feet_world.copy()
+    feet[..., 1] += np.linspace(0.0, 0.0035, len(feet))[:, None]
+    assert [one.rule for one in findings(replace(PLANNED, feet_world=feet)) if "travel" in one.rule] == [
+        "simulated_travel"
+    ]
+    turned = made.turned(PLANNED, np.linspace(0.0, -0.06, len(PLANNED.times)))
+    (one,) = [one for one in findings(turned) if one.rule == "simulated_heading"]
+    assert one.severity is Severity.WARNING
+    assert "turns by -3.4°; the plan says 0.0°" in one.sentence
+
+
+def test_a_rig_that_does_not_walk_is_not_asked_how_far_it_goes() -> None:
+    floating = made.problem_of(WALK, rig=Rig.FLOATING)
+    rules = {outcome.margin.rule for outcome in physics_outcomes(report(floating, going(0.2)), floating)}
+    assert not rules & {"simulated_travel", "simulated_heading"}
 
 
 def test_a_motor_behind_its_ramp_is_named() -> None:

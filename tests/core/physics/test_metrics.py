@@ -22,7 +22,7 @@ def test_a_run_as_planned_has_no_error() -> None:
     assert figures.feet_mean_error == pytest.approx(0.0, abs=1e-15)
     assert figures.distance == pytest.approx(0.004)
     assert figures.planned_distance == pytest.approx(0.004)
-    assert figures.goal_gap == pytest.approx(0.0, abs=1e-12)
+    assert figures.way.gap == pytest.approx(0.0, abs=1e-12)
     assert (figures.max_tilt, figures.heading, figures.slip.sum(), figures.saturation.max()) == (0, 0, 0, 0)
     assert not figures.fell
     assert figures.fell_time is None

@@ -1,4 +1,4 @@
-"""Motors that share actuators: least squares, what feet then do, and what the check says of it."""
+"""Motors that share actuators: least squares, and what feet then do."""
 
 from __future__ import annotations
 
@@ -11,14 +11,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from core.arrays import Floats
-from core.checks.checked_plan import CheckedPlan
-from core.checks.coupling import RULE, check_coupling, coupling_residual, real_swings
-from core.checks.rules import check_plan
 from core.errors import InputError
-from core.findings import TOLERANCE, Finding, Severity
-from core.gait.gait import motion_problem
 from core.gait.manual_motion import manual_motion
-from core.library.library import manual_entry, optimised_entry
+from core.library.library import manual_entry
 from core.motion.speeds import motor_speeds
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import heights_over_standing, real_feet, real_strokes
@@ -26,7 +21,6 @@ from core.robot.coupling import actuator_positions, coupling_matrix, motor_strok
 from core.robot.kinematics import BodyPose, walker_feet
 from core.robot.model import load_robot
 from core.wire.waypoint_path import waypoints_from_trajectory
-from solver_jobs import solve_live
 
 ROBOTS = {12: load_robot("deltawalker"), 9: load_robot("deltawalker9"), 5: load_robot("deltawalker5")}
 COUPLED = pytest.mark.parametrize("motors", [9, 5])
@@ -155,63 +149,6 @@ def manual_walk(motors: int) -> Trajectory:
     return manual_motion(manual_entry("walk", 0).gait, ROBOTS[motors]).trajectory
 
 
-def findings(motors: int, trajectory: Trajectory) -> list[Finding]:
-    model = ROBOTS[motors]
-    plan = CheckedPlan(model, trajectory, waypoints_from_trajectory(model, trajectory))
-    return [finding for finding in check_plan(plan).findings if finding.rule == RULE]
-
-
-def test_with_twelve_motors_nothing_is_lost_and_nothing_is_said() -> None:
-    walk = manual_walk(12)
-    assert np.abs(coupling_residual(ROBOTS[12], walk)).max() == 0.0
-    assert [swing.rise for swing in real_swings(ROBOTS[12], walk)] == pytest.approx([0.0045] * 4, abs=1e-6)
-    assert findings(12, walk) == []
-
-
-def test_with_nine_motors_single_feet_lift_as_the_thesis_found() -> None:
-    found = findings(9, manual_walk(9))
-    assert [finding.severity for finding in found] == [Severity.WARNING]
-    assert found[0].value == pytest.approx(0.003375, abs=1e-6)
-    assert "motor 1 of foot" in found[0].sentence
-    assert "Every foot still lifts, by 3.5 mm or more" in found[0].sentence
-    assert "up to 7.5 mm elsewhere, and slide up to 31.0 mm standing" in found[0].sentence
-
-
-def test_a_swing_that_rises_exactly_to_the_limit_lifts_and_one_that_stays_below_drags() -> None:
-    walk = manual_walk(9)
-    rise = min(swing.rise for swing in real_swings(ROBOTS[9], walk))
-
-    def dragging(limit: float) -> int:
-        found = check_coupling(ROBOTS[9], walk, limit).findings
-        return sum(finding.severity is Severity.ERROR for finding in found)
-
-    assert dragging(rise + TOLERANCE / 2) == 0
-    assert dragging(rise + 2 * TOLERANCE) > 0
-
-
-def test_with_five_motors_no_foot_lifts_as_the_thesis_found() -> None:
-    found = findings(5, manual_walk(5))
-    errors = [finding for finding in found if finding.severity is Severity.ERROR]
-    assert sorted(finding.foot or 0 for finding in errors) == [0, 1, 2, 3]
-    assert all(abs(finding.value or 0.0) < 0.0001 for finding in errors)
-    assert all("does not lift" in finding.sentence and "slides" in finding.sentence for finding in errors)
-    assert "None of 4 swings really lifts" in found[-1].sentence
-
-
-@pytest.mark.parametrize("version", [0, 1, 2])
-@pytest.mark.parametrize("family", ["walk", "amble", "s-gait"])
-def test_every_gait_by_hand_lifts_its_feet_with_nine_motors_and_none_with_five(
-    family: str, version: int
-) -> None:
-    gait = manual_entry(family, version).gait
-    rises = {
-        motors: [swing.rise for swing in real_swings(model, manual_motion(gait, model).trajectory)]
-        for motors, model in ROBOTS.items()
-    }
-    assert min(rises[9]) > 0.003
-    assert max(rises[5]) < 0.0005
-
-
 @COUPLED
 def test_waypoints_are_what_the_actuators_make(motors: int) -> None:
     model, walk = ROBOTS[motors], manual_walk(motors)
@@ -227,11 +164,3 @@ def test_motors_that_share_an_actuator_go_at_one_speed(motors: int) -> None:
         inner = motor_speeds(model, motion)[..., 0]
         assert np.abs(inner - inner[:, :1]).max() < 1e-12
         assert inner.max() > 0.0005
-
-
-@COUPLED
-def test_an_optimised_gait_is_judged_by_what_its_actuators_make(motors: int) -> None:
-    model = ROBOTS[motors]
-    motion = solve_live(motion_problem(optimised_entry("walk").gait, model)).trajectory
-    errors = {f.foot for f in findings(motors, motion) if f.severity is Severity.ERROR}
-    assert errors == ({0, 1, 2, 3} if motors == 5 else set())

@@ -16,6 +16,7 @@ from core.errors import InputError
 from core.gait.manual_motion import manual_motion
 from core.library.library import library
 from core.motion.trajectory import Trajectory
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import load_robot
 from core.wire.robot_time import (
     ARRIVAL_THRESHOLD,
@@ -30,7 +31,6 @@ from core.wire.waypoint_merging import (
     needed_knots,
     plan_of_knots,
     plan_waypoints,
-    robot_feet,
 )
 from core.wire.waypoints import Waypoints
 
@@ -123,12 +123,12 @@ def test_a_merged_walk_is_less_than_half_as_long_and_keeps_every_swing() -> None
         assert False in flags
         assert flags[0]
         assert flags[-1]
-    feet = robot_feet(MODEL, every.knots.strokes)
+    feet = feet_in_robot(MODEL, every.knots.strokes)
     assert plan.hold_ok[0]
     assert plan.hold_ok[-1]
     assert sum(plan.hold_ok) >= 5
     highest = feet[..., 2].max()
-    assert robot_feet(MODEL, plan.waypoints.strokes)[..., 2].max() == pytest.approx(highest, abs=1e-9)
+    assert feet_in_robot(MODEL, plan.waypoints.strokes)[..., 2].max() == pytest.approx(highest, abs=1e-9)
 
 
 def test_needed_knots_are_lift_off_top_and_touch_down() -> None:

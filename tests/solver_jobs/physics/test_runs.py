@@ -18,8 +18,9 @@ from core.physics.problem import Rig, SimulationProblem
 from core.physics.ramp import TURN
 from core.physics.variations import variations, varied_problem
 from core.problem.motion_problem import Cost
+from core.robot.kinematics import feet_in_robot
 from core.wire.robot_time import RAMP_SPEED, ramp_time
-from core.wire.waypoint_merging import plan_waypoints, robot_feet
+from core.wire.waypoint_merging import plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import simulate, simulate_variations, solve_live
 from solver_jobs.physics.simulate import simulate as simulate_at
@@ -131,7 +132,7 @@ def test_a_margin_of_5_mm_too_little_is_reported_however_low_feet_are(clearance:
 def test_a_robot_that_leans_downhill_falls_and_the_run_ends_there() -> None:
     steep = replace(SCALES, ground_tilt=(0.0, 0.45), friction=5.0)
     strokes = resting(10)
-    strokes[2:] = strokes_of(robot_feet(MODEL, resting(1))[0] - np.array([0.010, 0.0, 0.0]))
+    strokes[2:] = strokes_of(feet_in_robot(MODEL, resting(1))[0] - np.array([0.010, 0.0, 0.0]))
     problem = problem_of_strokes(strokes, physics=steep)
     motion = simulate(problem)
     found = report(problem, motion)

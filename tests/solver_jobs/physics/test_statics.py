@@ -12,9 +12,9 @@ from core.physics.masses import part_masses, physics_for
 from core.physics.metrics import rotations, tilts
 from core.physics.parameters import physics_set
 from core.physics.problem import Rig
+from core.robot.kinematics import feet_in_robot
 from core.robot.leg import foot_from_strokes
 from core.robot.model import load_robot
-from core.wire.waypoint_merging import robot_feet
 from solver_jobs import simulate
 from tests.support.solvers.rigs import MIDDLE, MODEL, SCALES, problem_of_strokes, resting, strokes_of
 
@@ -31,7 +31,7 @@ def test_three_feet_carry_the_weight_by_the_levers_of_the_centre_of_mass() -> No
     strokes = resting()
     strokes[:, 0] -= 0.004
     # Foot 1 hangs in the air, and the others lie so far ahead that the body's middle is amid them.
-    leaned = robot_feet(MODEL, strokes)[0] + np.array([0.010, 0.0, 0.0])
+    leaned = feet_in_robot(MODEL, strokes)[0] + np.array([0.010, 0.0, 0.0])
     strokes = np.repeat(strokes_of(leaned)[None], 2, 0)
     motion = simulate(problem_of_strokes(strokes))
     assert motion.ground_forces[-1, 0, 2] == 0.0

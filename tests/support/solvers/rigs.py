@@ -15,9 +15,9 @@ from core.motion.trajectory import Trajectory
 from core.physics.masses import physics_for
 from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.problem import Rig, SimulationProblem
-from core.robot.kinematics import BodyPose, free_strokes
+from core.robot.kinematics import BodyPose, feet_in_robot, free_strokes
 from core.robot.model import RobotModel, load_robot
-from core.wire.waypoint_merging import WaypointPlan, plan_waypoints, robot_feet
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import solve_live
 
@@ -43,7 +43,7 @@ def problem_of_strokes(
     """Waypoints as they are; the plan keeps the body where it begins, which serves as start pose."""
     count = len(strokes)
     waypoints = Waypoints(strokes, np.full(count, 0.4))
-    feet = robot_feet(model, strokes)
+    feet = feet_in_robot(model, strokes)
     height = model.com_height - feet[0, :, 2].min()
     turn = np.array([[np.cos(heading), -np.sin(heading)], [np.sin(heading), np.cos(heading)]])
     feet[..., :2] = feet[..., :2] @ turn.T

@@ -1,0 +1,133 @@
+"""One motion, three verdicts: the check of its trajectory, of its waypoints alone, and the physics."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+
+import pytest
+
+from app.cli.gait_motion import sending_of, trajectory_of
+from app.simulation.problem import way_problem
+from core.checks.checked_plan import checked_plan
+from core.checks.made_plan import made_plan
+from core.checks.rules import check_plan, check_waypoints
+from core.errors import InfeasibleError
+from core.findings import Finding, Severity, Verdict
+from core.gait.gait import Gait
+from core.library.library import library
+from core.library.new_gait import with_robot
+from core.physics.findings import physics_outcomes
+from core.physics.masses import default_physics
+from core.physics.metrics import report
+from core.physics.report import SimulationReport
+from core.robot.model import ROBOT_NAMES, load_robot
+from core.wire.waypoint_merging import plan_waypoints
+from solver_jobs import simulate
+from tests.support.studio_process import PROJECT
+
+FOUR_LEGS = tuple(name for name in ROBOT_NAMES if load_robot(name).leg_count == 4)
+NEAR = 0.1
+"""A part of a way in the documentation may be so far off on another computer: physics is chaotic there."""
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """What is said of one motion."""
+
+    trajectory: Verdict
+    waypoints: Verdict
+    figures: SimulationReport
+    found: tuple[Finding, ...]
+    estimate: float | None
+
+    @property
+    def walks(self) -> bool:
+        return all(found.severity is not Severity.ERROR for found in self.found)
+
+
+def cases() -> Iterator[tuple[str, str]]:
+    """Robots and the gaits of the library for their number of legs; poses for their own robot alone."""
+    for robot in ROBOT_NAMES:
+        for entry in library().values():
+            own = entry.gait.robot == robot
+            legs = load_robot(entry.gait.robot).leg_count == load_robot(robot).leg_count
+            if own or (legs and entry.gait.poses is None):
+                yield robot, entry.id
+
+
+@cache
+def verdicts(robot: str, gait_id: str) -> Verdicts | None:
+    """All verdicts of a gait for a robot; None where it has no motion."""
+    model = load_robot(robot)
+    try:
+        gait: Gait = with_robot(library()[gait_id].gait, model)
+        motion = trajectory_of(gait)
+    except InfeasibleError:
+        return None
+    way = plan_waypoints(model, motion, *sending_of(gait))
+    problem = way_problem(model, motion, way, default_physics(model))
+    figures = report(problem, simulate(problem))
+    outcomes = physics_outcomes(figures, problem)
+    return Verdicts(
+        check_plan(checked_plan(gait, model, motion, way)),
+        check_waypoints(model, way.waypoints),
+        figures,
+        tuple(found for outcome in outcomes for found in outcome.findings),
+        made_plan(model, motion, way.waypoints, way.kept).way.share if model.is_coupled else None,
+    )
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("robot", ROBOT_NAMES)
+def test_no_verdict_passes_what_another_one_does_not(robot: str) -> None:
+    contradictions = []
+    for _, gait_id in (case for case in cases() if case[0] == robot):
+        of = verdicts(robot, gait_id)
+        if of is not None and not of.trajectory.passed == of.waypoints.passed == of.walks:
+            contradictions.append((gait_id, of.trajectory.passed, of.waypoints.passed, of.walks))
+    assert contradictions == []
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("robot", ROBOT_NAMES)
+def test_what_does_not_get_on_is_said_with_its_place(robot: str) -> None:
+    for _, gait_id in (case for case in cases() if case[0] == robot):
+        of = verdicts(robot, gait_id)
+        if of is None:
+            continue
+        for rule, share in (
+            ("simulated_travel", of.figures.way.share),
+            ("simulated_heading", of.figures.way.turn_share),
+        ):
+            if share is None or share >= 0.9:
+                continue
+            (found,) = [one for one in of.found if one.rule == rule]
+            assert found.severity is (Severity.ERROR if share < 0.5 else Severity.WARNING), gait_id
+            assert found.foot is not None
+            assert found.time is not None
+
+
+def told(robot: str) -> dict[str, tuple[float, float]]:
+    """Parts of the way, estimated and in physics, by gait, as the documentation has them, in per cent."""
+    text = (PROJECT / "docs" / "robots.md").read_text()
+    rows = re.findall(rf"^\| `([\w-]+)`, {robot} \| (−?\d+) \| (−?\d+) \|", text, re.MULTILINE)
+    return {gait: (_number(estimate), _number(physics)) for gait, estimate, physics in rows}
+
+
+def _number(text: str) -> float:
+    return float(text.replace("−", "-"))
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("robot", [name for name in FOUR_LEGS if load_robot(name).is_coupled])
+def test_the_documentation_says_what_these_robots_make_of_a_gait(robot: str) -> None:
+    rows = told(robot)
+    assert len(rows) >= 4
+    for gait_id, (estimate, physics) in rows.items():
+        of = verdicts(robot, gait_id)
+        assert of is not None
+        assert of.estimate == pytest.approx(estimate / 100, abs=NEAR)
+        assert of.figures.way.share == pytest.approx(physics / 100, abs=NEAR)

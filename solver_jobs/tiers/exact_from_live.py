@@ -21,7 +21,42 @@ NOT_OPTIMAL = (
 OUTSIDE = "With other footholds it is diagnosed from a local search, not proven."
 
 
+SMALLER_MARGINS = (0.002, 0.0)
+"""Stability margins that are tried where the asked one forbids a motion, m."""
+
+PATIENCE = 45
+"""Iterations after which a smaller margin is taken to give no motion; one that exists takes 9 to 30. They are
+none of the search's own, so that nobody is told of them; a second passes before a cancel is heard."""
+
+MARGIN_FAMILIES = ("body_torque", "margin")
+"""What a motion lacks whose margin is too large, by the names of `Lack.family`."""
+
+
 def solve_exact(
+    problem: MotionProblem, progress: Progress = lambda iterate: True, *, resume: bool = False
+) -> MotionResult:
+    """Solves a problem by both tiers; a no also says whether the asked margin alone forbids a motion.
+
+    Args and result are those of `solve_by_both`.
+    """
+    result = solve_by_both(problem, progress, resume=resume)
+    if result.status is not SolveStatus.INFEASIBLE:
+        return result
+    if not any(lack.family in MARGIN_FAMILIES for lack in result.lacks):
+        return result
+    for margin in (one for one in SMALLER_MARGINS if one < problem.limits.margin):
+        smaller = replace(problem, limits=replace(problem.limits, margin=margin))
+        found = solve_motion(smaller, lambda iterate: iterate.number < PATIENCE)
+        if found.status is SolveStatus.SOLVED and check_motion(smaller, found.trajectory).confirmed:
+            words = (
+                f"Only the margin forbids it: with {margin * 1000:.0f} mm instead of "
+                f"{problem.limits.margin * 1000:.1f} mm there is a motion."
+            )
+            return replace(result, explanation=(*result.explanation, words))
+    return result
+
+
+def solve_by_both(
     problem: MotionProblem, progress: Progress = lambda iterate: True, *, resume: bool = False
 ) -> MotionResult:
     """Solves a problem by the exact tier with its convex start; not for several threads at once.

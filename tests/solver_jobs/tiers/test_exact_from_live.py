@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from core.gait.gait import motion_problem
-from core.library.library import library
+from core.library.library import library, optimised_entry
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Cost, MotionProblem
 from core.robot.model import load_robot
@@ -59,3 +60,27 @@ def test_the_gentle_cost_is_what_it_says(solve: Callable[[MotionProblem], Motion
     assert motion.feet_velocity is not None
     body, feet = (float((v**2).sum()) for v in (motion.body_velocity, motion.feet_velocity))
     assert result.objective == pytest.approx((body + 0.01 * feet) / 2, rel=1e-6)
+
+
+def stepping(gait: str, step: float) -> MotionProblem:
+    document = optimised_entry(gait).gait
+    dx, dy, yaw = document.step
+    longer = step / float(np.hypot(dx, dy))
+    return motion_problem(replace(document, step=(dx * longer, dy * longer, yaw)), load_robot(document.robot))
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("gait", ["s-gait", "c-gait"])
+def test_a_no_says_where_the_margin_alone_forbids_a_motion(gait: str) -> None:
+    result = solve_exact(stepping(gait, 0.025))
+    assert result.status is SolveStatus.INFEASIBLE
+    assert result.explanation[-1] == (
+        "Only the margin forbids it: with 2 mm instead of 6.0 mm there is a motion."
+    )
+
+
+@pytest.mark.heavy
+def test_a_no_of_what_no_margin_makes_possible_does_not() -> None:
+    result = solve_exact(stepping("s-gait", 0.045))
+    assert result.status is SolveStatus.INFEASIBLE
+    assert not any("Only the margin" in sentence for sentence in result.explanation)

@@ -117,6 +117,8 @@ def variations_content(runs: Sequence[VariedRun]) -> Json:
                     "max_tilt": run.max_tilt,
                     "swing_load": run.swing_load,
                     "distance": run.distance,
+                    "way_share": run.way_share,
+                    "turn_share": run.turn_share,
                     "feet_error": run.feet_error,
                     "ended_early": run.ended_early,
                 }

@@ -206,7 +206,7 @@ def _way(made: MadePlan) -> Iterator[Outcome]:
     cause = f"Foot {foot + 1} slides most, by {slides[foot] * 1000:.1f} mm in a stance."
     way = made.way
     told = {
-        "made_travel": (way.share, f"The body goes {way.made * 1000:.1f} of {way.asked * 1000:.1f} mm"),
+        "made_travel": (way.share, f"The robot goes {way.made * 1000:.1f} of {way.asked * 1000:.1f} mm"),
         "made_heading": (
             way.turn_share,
             f"The body turns by {np.degrees(way.made_turn):.1f} of {np.degrees(way.asked_turn):.1f}°",

@@ -187,7 +187,7 @@ def _travel(report: SimulationReport, problem: SimulationProblem) -> Outcome:
     way, rule = report.way, "simulated_travel"
     if way.share is not None and not is_made(way.share):
         words = (
-            f"In the simulation the body goes {way.made * 1000:.1f} of {way.asked * 1000:.1f} mm, "
+            f"In the simulation the robot goes {way.made * 1000:.1f} of {way.asked * 1000:.1f} mm, "
             f"{way.share * 100:.0f} % of its way. {_lost(report, problem)}"
         )
         return share_outcome(rule, way.share, words, SEE_SLIDES, _slide_place(report, problem))
@@ -196,7 +196,7 @@ def _travel(report: SimulationReport, problem: SimulationProblem) -> Outcome:
     if way.gap <= limit + TOLERANCE:
         return Outcome(margin if way.share is None else share_margin(rule, way.share))
     words = (
-        f"In the simulation the body ends {way.gap * 1000:.1f} mm from where the plan ends, more than "
+        f"In the simulation the robot ends {way.gap * 1000:.1f} mm from where the plan ends, more than "
         f"{limit * 1000:.1f} mm. {_lost(report, problem)}"
     )
     place = _slide_place(report, problem)

@@ -192,12 +192,15 @@ const COLUMNS = 16;
 const degrees = (radians) => fixed((radians * 180) / Math.PI);
 
 /** How a variation came out: what it is called, its sign, and its sentence. */
-function cameOf({ walks, fell, max_tilt: tilt, distance, feet_error: error, ended_early: early }) {
+function cameOf(run) {
+  const { walks, fell, max_tilt: tilt, distance, feet_error: error, ended_early: early } = run;
   if (fell) return ["falls", "×", `The robot falls over, with a tilt of ${degrees(tilt)}°`];
   if (early) return ["falls", "×", `The simulation ends early: ${early.replace(/\.$/, "")}`];
   const walked = `distance walked ${mm(distance)} mm, mean foot error ${mm(error)} mm`;
   const figures = `Tilt up to ${degrees(tilt)}°, ${walked}`;
   if (walks) return ["walks", "", `The robot walks. ${figures}`];
+  const made = Math.min(run.way_share ?? 1, run.turn_share ?? 1);
+  if (made < 0.5) return ["tips", "!", `The robot makes ${fixed(made * 100, 0)} % of its way. ${figures}`];
   return ["tips", "!", `The robot tips onto a foot that should be in the air. ${figures}`];
 }
 

@@ -55,7 +55,7 @@ function motionRows(report, at) {
       report.way.asked ? `${mm(report.way.made)} of ${mm(report.way.asked)}` : "none asked",
       report.way.asked ? "mm" : "",
       null,
-      "How far the body goes along the plan's way, in the simulation and in the plan",
+      "How far the robot goes along the plan's way, in the simulation and in the plan",
     ],
     [
       "Turn",

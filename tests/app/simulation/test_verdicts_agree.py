@@ -26,9 +26,14 @@ from core.physics.report import SimulationReport
 from core.robot.model import ROBOT_NAMES, load_robot
 from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import simulate
+from tests.support.soak import is_soak
 from tests.support.studio_process import PROJECT
 
-FOUR_LEGS = tuple(name for name in ROBOT_NAMES if load_robot(name).leg_count == 4)
+COUPLED = tuple(name for name in ROBOT_NAMES if load_robot(name).is_coupled)
+SHORT = frozenset(
+    ("walk", "amble", "s-gait", "c-gait", "walk-manual-0", "amble-manual-1", "amble-order-3", "fast-c-gait")
+)
+"""Gaits of four-legged robots that are tried outside of a soak; of others all are."""
 NEAR = 0.1
 """A part of a way in the documentation may be so far off on another computer: physics is chaotic there."""
 
@@ -48,14 +53,13 @@ class Verdicts:
         return all(found.severity is not Severity.ERROR for found in self.found)
 
 
-def cases() -> Iterator[tuple[str, str]]:
-    """Robots and the gaits of the library for their number of legs; poses for their own robot alone."""
-    for robot in ROBOT_NAMES:
-        for entry in library().values():
-            own = entry.gait.robot == robot
-            legs = load_robot(entry.gait.robot).leg_count == load_robot(robot).leg_count
-            if own or (legs and entry.gait.poses is None):
-                yield robot, entry.id
+def gaits_for(robot: str) -> Iterator[str]:
+    """Gaits of the library for a robot's number of legs, poses for their own robot alone; in a soak all."""
+    for entry in library().values():
+        own, legs = entry.gait.robot == robot, load_robot(entry.gait.robot).leg_count
+        fits = own or (legs == load_robot(robot).leg_count and entry.gait.poses is None)
+        if fits and (is_soak() or legs != 4 or entry.id in SHORT):
+            yield entry.id
 
 
 @cache
@@ -81,10 +85,11 @@ def verdicts(robot: str, gait_id: str) -> Verdicts | None:
 
 
 @pytest.mark.heavy
+@pytest.mark.soak
 @pytest.mark.parametrize("robot", ROBOT_NAMES)
 def test_no_verdict_passes_what_another_one_does_not(robot: str) -> None:
     contradictions = []
-    for _, gait_id in (case for case in cases() if case[0] == robot):
+    for gait_id in gaits_for(robot):
         of = verdicts(robot, gait_id)
         if of is not None and not of.trajectory.passed == of.waypoints.passed == of.walks:
             contradictions.append((gait_id, of.trajectory.passed, of.waypoints.passed, of.walks))
@@ -92,9 +97,10 @@ def test_no_verdict_passes_what_another_one_does_not(robot: str) -> None:
 
 
 @pytest.mark.heavy
+@pytest.mark.soak
 @pytest.mark.parametrize("robot", ROBOT_NAMES)
 def test_what_does_not_get_on_is_said_with_its_place(robot: str) -> None:
-    for _, gait_id in (case for case in cases() if case[0] == robot):
+    for gait_id in gaits_for(robot):
         of = verdicts(robot, gait_id)
         if of is None:
             continue
@@ -122,10 +128,12 @@ def _number(text: str) -> float:
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("robot", [name for name in FOUR_LEGS if load_robot(name).is_coupled])
+@pytest.mark.soak
+@pytest.mark.parametrize("robot", COUPLED)
 def test_the_documentation_says_what_these_robots_make_of_a_gait(robot: str) -> None:
     rows = told(robot)
     assert len(rows) >= 4
+    rows = {gait: row for gait, row in rows.items() if is_soak() or gait in SHORT}
     for gait_id, (estimate, physics) in rows.items():
         of = verdicts(robot, gait_id)
         assert of is not None

@@ -173,7 +173,8 @@ def _manual_note(slip: float) -> str:
 
 
 def _live_note(answer: VerifiedResult) -> str:
-    return f"Live plan, {answer.result.solve_seconds * 1000:.0f} ms, all limits met."
+    met = ", all limits met" if answer.status is SolveStatus.SOLVED else ""
+    return f"Live plan, {answer.result.solve_seconds * 1000:.0f} ms{met}."
 
 
 def _held_note(gait: Gait, model: RobotModel) -> str:

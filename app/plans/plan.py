@@ -12,7 +12,7 @@ from app.plans.planned_part import PlannedPart
 from app.plans.verified_result import VerifiedResult
 from core.arrays import Floats
 from core.checks.checked_plan import checked_plan
-from core.checks.made_plan import MadePlan, made_plan, other_motion_words
+from core.checks.made_plan import MadePlan, is_made, made_plan, other_motion_words
 from core.checks.rules import check_plan
 from core.checks.simulation import Simulated
 from core.errors import CheckError, FootfallError, InputError
@@ -159,7 +159,24 @@ class Plan:
         """What shared motors make of what would be sent; None where each has its own."""
         if self.trajectory is None or self.way is None or not self.model.is_coupled:
             return None
-        return made_plan(self.model, self.trajectory, self.way.waypoints, self.way.kept)
+        return made_plan(self.model, self.trajectory, self.way)
+
+    @property
+    def makes_planned(self) -> bool:
+        """Whether the robot makes the motion that is planned."""
+        return self.made is None or is_made(self.model, self.made.trajectory)
+
+    @property
+    def advance(self) -> tuple[float, float]:
+        """How far the robot goes, m, and turns, rad, as far as that is known without physics."""
+        t = self.trajectory
+        if t is None:
+            return 0.0, 0.0
+        if self.made is not None and not self.makes_planned:
+            way = self.made.way
+            return way.made, float(self.made.poses.motion.headings[-1])
+        distance = float(np.linalg.norm(t.body_world[-1, :2] - t.body_world[0, :2]))
+        return distance, float(t.heading[-1] - t.heading[0])
 
     @property
     def margins(self) -> Floats:
@@ -200,7 +217,7 @@ def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
         draft = plan.source is PlanSource.DRAFT
         return replace(plan, refusal=InputError(plan.note, "timeline") if draft else unreachable)
     sent = replace(plan, way=way)
-    if sent.made is None or sent.made.is_planned:
+    if sent.makes_planned or sent.made is None:
         return sent
     return replace(sent, note=f"{sent.note} {other_motion_words(sent.made)}".strip())
 

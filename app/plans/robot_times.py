@@ -1,7 +1,5 @@
 """How long a plan lasts, as planned and on the robot."""
 
-import numpy as np
-
 from app.plans.plan import Plan
 from core.library.robot_times import RobotTimes
 from core.wire.robot_time import estimate_seconds
@@ -13,12 +11,12 @@ def robot_times(plan: Plan) -> RobotTimes | None:
     if plan.way is None or trajectory is None:
         return None
     seconds = estimate_seconds(plan.way.waypoints)
-    way = float(np.linalg.norm(trajectory.body_world[-1, :2] - trajectory.body_world[0, :2]))
+    way, turn = plan.advance
     if plan.poses is not None:
         way = plan.poses.distance
     return RobotTimes(
         plan_seconds=round(float(trajectory.times[-1] - trajectory.times[0]), 3),
         robot_seconds=round(seconds, 1),
         speed=round(way / seconds, 6),
-        turn_rate=round(float(trajectory.heading[-1] - trajectory.heading[0]) / seconds, 6),
+        turn_rate=round(turn / seconds, 6),
     )

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from app.plans.plan import Plan
 from core.gait.gait import Gait, is_drawn
 from core.pose_gaits.pose_check import PoseCheck
@@ -64,8 +62,7 @@ def plan_figures(gait: Gait, plan: Plan) -> WalkFigures | None:
     if way is None or trajectory is None or plan.is_draft:
         return None
     seconds = estimate_seconds(way.waypoints)
-    distance = float(np.linalg.norm(trajectory.body_world[-1, :2] - trajectory.body_world[0, :2]))
-    turn = float(trajectory.heading[-1] - trajectory.heading[0])
+    distance, turn = plan.advance
     cycle_seconds, cycle_moves = _cycle(gait, way)
     return WalkFigures(
         cycle_seconds=cycle_seconds,

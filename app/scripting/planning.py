@@ -27,6 +27,7 @@ from app.scripting.options import command_options
 from app.scripting.plans import Plan
 from app.scripting.robots import Robot
 from core.arrays import Floats
+from core.checks.made_plan import other_motion_words
 from core.errors import CheckError, InputError
 from core.gait.gait import Gait as Document
 from core.motion.trajectory import Trajectory
@@ -100,8 +101,7 @@ def _optimised(of: Gait, method: Method, name: str) -> Plan:
         robot = Robot(load_robot(of.robot))
         return Plan(verified.status.value, robot, of, tuple(verified.explanation), figures)
     result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
-    plan = _of_made(of, make_plan(of.document, result, solve_live), verified.status.value, figures)
-    return replace(plan, explanation=tuple(verified.explanation))
+    return _of_made(of, make_plan(of.document, result, solve_live), verified.status.value, figures)
 
 
 def _of_made(of: Gait, made: Made, status: str, figures: dict[str, Any]) -> Plan:
@@ -109,7 +109,11 @@ def _of_made(of: Gait, made: Made, status: str, figures: dict[str, Any]) -> Plan
     if made.trajectory is None or made.is_draft:
         why = made.note if made.refusal is None else made.refusal.sentence
         return Plan(_failure(made).value, robot, of, (why,), figures)
-    return Plan(status, robot, of, (), figures, made.trajectory, made.way)
+    told: tuple[str, ...] = ()
+    if made.made is not None and not made.makes_planned:
+        told = (other_motion_words(made.made),)
+        status = SolveStatus.FAILED.value if status == SolveStatus.SOLVED.value else status
+    return Plan(status, robot, of, told, figures, made.trajectory, made.way)
 
 
 def _failure(made: Made) -> SolveStatus:

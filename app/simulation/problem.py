@@ -21,7 +21,7 @@ from core.physics.report import SimulationReport
 from core.robot.model import RobotModel
 from core.wire.waypoint_merging import WaypointPlan
 
-FORM = 2
+FORM = 3
 """Of what is kept of a simulation; grows with a change of the physics or its report between versions."""
 SAME_DECIMALS = 6
 """Of s, m and rad: times and places that agree to them are the same."""
@@ -106,7 +106,7 @@ def physics_from_content(content: Json) -> PhysicsSet:
 def report_content(report: SimulationReport) -> Json:
     """A report as JSON content, SI."""
     values = {field.name: getattr(report, field.name) for field in fields(report)}
-    values["way"] = asdict(report.way) | {"share": report.way.share, "turn_share": report.way.turn_share}
+    values["way"] = _way_content(report.way)
     content: Json = finite(
         {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
     )
@@ -114,22 +114,30 @@ def report_content(report: SimulationReport) -> Json:
 
 
 def report_from_content(content: Json) -> SimulationReport:
-    """Inverse of `report_content`; also of one that an earlier version kept."""
+    """Inverse of `report_content`."""
     values: Json = {
         name: np.array(value) if isinstance(value, list) else value for name, value in content.items()
     }
-    gap = values.pop("goal_gap", None)
-    way = _earlier_way(values, gap) if "way" not in values else WayMade(**_without_shares(values["way"]))
-    return SimulationReport(**(values | {"way": way}))
+    values["way"] = WayMade(**_without_shares(values["way"]))
+    return SimulationReport(**values)
+
+
+def with_way(content: Json) -> Json:
+    """A report's content; to one of an earlier version the way is added that its distances say."""
+    return content if "way" in content else content | {"way": _way_content(_earlier_way(content))}
+
+
+def _way_content(way: WayMade) -> Json:
+    return asdict(way) | {"share": way.share, "turn_share": way.turn_share}
 
 
 def _without_shares(content: Json) -> Json:
     return {name: value for name, value in content.items() if name not in ("share", "turn_share")}
 
 
-def _earlier_way(content: Json, gap: float) -> WayMade:
+def _earlier_way(content: Json) -> WayMade:
     """Way and turn by the three distances that earlier versions kept: plan, robot, and between their ends."""
-    asked, distance = content["planned_distance"], content["distance"]
+    asked, distance, gap = content["planned_distance"], content["distance"], content["goal_gap"]
     turn, made_turn = content["planned_heading"], content["heading"]
     goes, turns = asked > NO_WAY, abs(turn) > NO_TURN
     return WayMade(

@@ -6,10 +6,10 @@ from app.common.json import Json
 from app.plans.plan import Plan
 from app.simulation.problem import (
     key_before,
-    report_content,
     report_from_content,
     simulation_key,
     simulation_problem,
+    with_way,
 )
 from app.store.simulation_store import SimulationRow, SimulationStore
 from core.checks.simulation import Simulated
@@ -56,8 +56,7 @@ class SimulationRepository:
             raise NotFoundError(
                 "There is no such simulation, or it is not kept any more. Simulate again.", key
             )
-        # A report of an earlier version has its way in other figures.
-        return {**content, "report": report_content(report_from_content(content["report"]))}
+        return {**content, "report": with_way(content["report"])}
 
     def standing(self, gait_id: str, plan: Plan) -> Json | None:
         """The newest simulation of a gait, rather one of its plan as it is; None where there is none."""

@@ -4,7 +4,6 @@ Strokes are made as h = C·u (`core.robot.coupled_strokes`), the robot rests on 
 ground, and friction moves its body (`core.physics.quasi_static`).
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,13 +14,16 @@ from core.arrays import Bools, Floats, first_highest, interpolated, stretches
 from core.checks.ground import CLEARANCE_LIMIT, SLIP_LIMIT
 from core.findings import TOLERANCE
 from core.gait.held_feet import feet_words
+from core.gait.options import GaitOptions
 from core.motion.trajectory import Trajectory
 from core.motion.way_made import WayMade, way_made
 from core.physics.quasi_static import QuasiStaticMotion, quasi_static_motion
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem
 from core.robot.coupled_strokes import real_strokes
 from core.robot.kinematics import free_strokes
 from core.robot.model import RobotModel
-from core.wire.waypoint_path import waypoints_from_trajectory
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import Waypoints
 
 RULE = "coupling"
@@ -68,11 +70,11 @@ class MadePoses:
         return interpolated(times, self.times, values)
 
 
-def made_poses(model: RobotModel, waypoints: Waypoints, ends: NDArray[np.int64], times: Floats) -> MadePoses:
-    """What is made of waypoints that are at given knots and times of a plan."""
+def made_poses(model: RobotModel, waypoints: Waypoints, knots: NDArray[np.int64], times: Floats) -> MadePoses:
+    """What is made of waypoints (count,) that are at knots and times of a plan."""
     motion = quasi_static_motion(model, waypoints)
     places = np.interp(np.arange(len(motion.moves)), motion.reached, times)
-    return MadePoses(motion, ends[motion.moves], places)
+    return MadePoses(motion, knots[motion.moves], places)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,18 +92,6 @@ class MadePlan:
     trajectory: Trajectory
     poses: MadePoses
     contact: Bools
-
-    @cached_property
-    def residual(self) -> Floats:
-        """(n, legs, 3) h − C·u: by how much each planned stroke is longer than the one that is made, m."""
-        t = self.trajectory
-        wanted = free_strokes(self.model, t.feet_world, t.pose(self.model))
-        return wanted - real_strokes(self.model, wanted)
-
-    @property
-    def is_planned(self) -> bool:
-        """Whether what is made is what is planned."""
-        return float(np.abs(self.residual).max()) <= TOLERANCE
 
     @cached_property
     def swings(self) -> tuple[RealSwing, ...]:
@@ -143,54 +133,75 @@ class MadePlan:
         return way_made((planned[:, :2], heading), (middles, motion.headings))
 
 
-def made_plan(
-    model: RobotModel,
-    trajectory: Trajectory,
-    waypoints: Waypoints | None = None,
-    kept: Sequence[int] | None = None,
-) -> MadePlan:
+def made_plan(model: RobotModel, trajectory: Trajectory, way: WaypointPlan | None = None) -> MadePlan:
     """Sets a robot on the way of a plan.
 
     Args:
         model: the robot.
         trajectory: what is planned.
-        waypoints: what is sent of it; None for one a knot.
-        kept: (count,) the knot with which the move to each waypoint ends; None for every knot.
+        way: what is sent of it; None for what a new gait sends.
 
     Raises:
         UnreachableError: a foot lies outside the workspace.
     """
-    if waypoints is None:
-        waypoints = waypoints_from_trajectory(model, trajectory)
-    ends = np.arange(trajectory.knot_count) if kept is None else np.asarray(kept)
-    poses = made_poses(model, waypoints, ends, trajectory.times[ends])
-    moves, planned = poses.motion.moves, trajectory.contact[ends]
-    contact = planned[moves] & planned[np.maximum(moves - 1, 0)]
-    contact[poses.motion.reached] = planned
-    return MadePlan(model, trajectory, poses, np.asarray(contact))
+    if way is None:
+        way = plan_waypoints(model, trajectory, GaitOptions.merge, GaitOptions.stop_bound)
+    knots = np.array(way.kept)
+    poses = made_poses(model, way.waypoints, knots, way.times)
+    at_end, on_way = _planned_contact(trajectory.contact, knots)
+    contact = on_way[poses.motion.moves]
+    contact[poses.motion.reached] = at_end
+    return MadePlan(model, trajectory, poses, contact)
+
+
+def _planned_contact(planned: Bools, knots: NDArray[np.int64]) -> tuple[Bools, Bools]:
+    """(count, legs) feet that should stand at each waypoint, and all along the move to it.
+
+    Args:
+        planned: (n, legs) at each knot.
+        knots: (count,) with which each waypoint's move ends; the same for all parts of a cut move.
+    """
+    distinct = np.unique(knots)
+    starts = distinct[np.maximum(np.searchsorted(distinct, knots) - 1, 0)]
+    ways = zip(starts.tolist(), knots.tolist(), strict=True)
+    on_way = np.array([planned[start : end + 1].all(axis=0) for start, end in ways])
+    is_last = np.append(knots[1:] != knots[:-1], True)
+    return np.where(is_last[:, None], planned[knots], on_way), on_way
+
+
+def missed_strokes(model: RobotModel, trajectory: Trajectory) -> Floats:
+    """(n, legs, 3) h − C·u: by how much each planned stroke is longer than the one that is made, m."""
+    wanted = free_strokes(model, trajectory.feet_world, trajectory.pose(model))
+    return wanted - real_strokes(model, wanted)
 
 
 def is_made(model: RobotModel, trajectory: Trajectory) -> bool:
     """Whether a robot's motors make a motion as it is; they do where none share an actuator."""
-    return not model.is_coupled or made_plan(model, trajectory).is_planned
+    return not model.is_coupled or _most_missed(model, trajectory) <= TOLERANCE
+
+
+def is_confirmed(problem: MotionProblem, motion: Trajectory) -> bool:
+    """Whether the checker confirms a motion, and the robot's motors make it."""
+    return check_motion(problem, motion).confirmed and is_made(problem.model, motion)
 
 
 def unmade_words(model: RobotModel, trajectory: Trajectory) -> str:
     """Why a robot makes another motion than this, and which; nothing where it makes this one."""
-    if not model.is_coupled:
-        return ""
-    made = made_plan(model, trajectory)
-    return "" if made.is_planned else other_motion_words(made)
+    return "" if is_made(model, trajectory) else other_motion_words(made_plan(model, trajectory))
 
 
 def other_motion_words(made: MadePlan) -> str:
-    """Why a robot makes another motion than the planned one, and which, in two sentences."""
-    model, off = made.model, float(np.abs(made.residual).max())
+    """Why a robot makes another motion than the planned one, and which."""
+    missed = _most_missed(made.model, made.trajectory) * 1000
     return (
-        f"Every stroke is free in this motion, but {model.actuator_count} motors drive the "
-        f"{model.motor_count} strokes, which are up to {off * 1000:.1f} mm off. The robot makes another "
+        f"This motion needs {made.model.motor_count} independent motors. The robot has "
+        f"{made.model.actuator_count}, and misses strokes by up to {missed:.1f} mm. The robot makes another "
         f"motion: {made_words(made)}"
     )
+
+
+def _most_missed(model: RobotModel, trajectory: Trajectory) -> float:
+    return float(np.abs(np.nan_to_num(missed_strokes(model, trajectory))).max())
 
 
 def made_words(made: MadePlan) -> str:

@@ -79,11 +79,7 @@ def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
         check_strokes(model, waypoints),
         check_deafness(waypoints),
         check_durations(waypoints),
-        *(
-            check_made_waypoints(model, waypoints)
-            if model.is_coupled
-            else [check_standing_balance(model, waypoints)]
-        ),
+        *_standing_rules(model, waypoints),
         *check_shoes_of_waypoints(model, waypoints),
         *check_arms_of_waypoints(model, waypoints),
     ]

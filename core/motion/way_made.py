@@ -14,6 +14,8 @@ NO_WAY = 0.001
 """A plan that never gets further from where it begins asks for no way, m."""
 NO_TURN = float(np.radians(1.0))
 """A plan that never turns further asks for no turn, rad."""
+STEPS_ROUND = 0.02
+"""Feet that step round a body which turns on the spot move their middle by less, and bring it back, m."""
 COMES_BACK = 0.5
 """A plan that ends nearer to its start than this part of its furthest place is judged at that place."""
 
@@ -65,7 +67,8 @@ def way_made(planned: tuple[Floats, Floats], real: tuple[Floats, Floats]) -> Way
     asked, turned = planned[0] - planned[0][0], planned[1] - planned[1][0]
     way, turn = (real[0] - real[0][0])[reached], (real[1] - real[1][0])[reached]
     most = _judged(np.abs(turned), NO_TURN)
-    far = _judged(np.linalg.norm(asked, axis=1), NO_WAY, comes_back=most is None)
+    away = np.linalg.norm(asked, axis=1)
+    far = _judged(away, NO_WAY, comes_back=most is None or float(away.max()) > STEPS_ROUND)
     length = 0.0 if far is None else float(np.linalg.norm(asked[far]))
     side = 1.0 if most is None else float(np.sign(turned[most]))
     return WayMade(

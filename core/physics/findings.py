@@ -1,5 +1,6 @@
 """The rules of a verdict that only a simulation can judge; limits and remedies stand with each of them."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ from core.arrays import Floats, stretches
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.motion.balance import BALANCE_RESERVE
 from core.motion.support_polygon import stability_margins
-from core.motion.way_made import LEAST_SHARE, WARNED_SHARE
+from core.motion.way_made import LEAST_SHARE, WARNED_SHARE, WayMade
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
 from core.wire.robot_time import ARRIVAL_THRESHOLD
@@ -20,6 +21,11 @@ SWING_LIMIT = 0.5
 feet that are in the air have at most 0.13 by measurement, those that bear a robot 0.87 and more."""
 EDGE = 0.0001
 """A plan whose centre of mass is so far outside its support still rests on the edge, m."""
+EDGE_TILT = float(np.radians(8.0))
+"""A body that leans further has not only rocked from one edge to the next foot, rad; the published gaits by
+hand lean by 6.7°."""
+KNOTS_ABOUT = 1
+"""Knots before and after a moment at which a plan is looked at too."""
 SLIP_LIMIT = 0.001
 """A sole that slides further during one stance gets a warning, m."""
 BALANCE_LIMIT = 0.0
@@ -89,36 +95,33 @@ def _tilt(report: SimulationReport, problem: SimulationProblem) -> Outcome:
     margin = RuleMargin("simulated_tilt", TILT_LIMIT - report.max_tilt, "rad")
     if report.max_tilt <= TILT_LIMIT or report.fell:
         return Outcome(margin)
+    severity, edge = _rocking(report, problem, report.max_tilt_time)
     words = (
         f"In the simulation the body leans by {np.degrees(report.max_tilt):.1f}° at "
         f"{report.max_tilt_time:.1f} s; more than {np.degrees(TILT_LIMIT):.0f}° means that it rocks onto a "
-        f"foot that should be in the air.{_edge_words(problem)}"
+        f"foot that should be in the air.{edge}"
     )
     remedy = "Shift the body over the standing feet before that step, or ask for a larger stability margin."
     place = _place(report, problem, report.max_tilt_time)
-    finding = found(margin.rule, _rocking(problem), words, remedy, report.max_tilt, TILT_LIMIT, **place)
+    finding = found(margin.rule, severity, words, remedy, report.max_tilt, TILT_LIMIT, **place)
     return Outcome(margin, (finding,))
 
 
-def _rests_on_edge(problem: SimulationProblem) -> bool:
-    """Whether the plan, if it is what the robot makes, has no reserve of balance and loses none."""
-    plan = problem.plan
-    if problem.model.is_coupled:
-        return False
-    least = float(stability_margins(plan.body_world[:, :2], plan.feet_world, plan.contact).min())
-    return -EDGE <= least < BALANCE_RESERVE - TOLERANCE
+def _rocking(report: SimulationReport, problem: SimulationProblem, time: float) -> tuple[Severity, str]:
+    """How bad it is that a robot rocks at a simulated time, and a sentence on it.
 
-
-def _rocking(problem: SimulationProblem) -> Severity:
-    """How bad it is to rock: where the plan itself rests on an edge, little decides whether a robot does."""
-    return Severity.WARNING if _rests_on_edge(problem) else Severity.ERROR
-
-
-def _edge_words(problem: SimulationProblem) -> str:
-    if not _rests_on_edge(problem):
-        return ""
+    Where the plan itself rests on the edge of its support, very little decides whether a robot rocks. A robot
+    with shared motors makes another motion than its plan.
+    """
+    plan, knot = problem.plan, int(_place(report, problem, time)["sample"])
+    about = slice(max(knot - KNOTS_ABOUT, 0), knot + KNOTS_ABOUT + 1)
+    margins = stability_margins(plan.body_world[about, :2], plan.feet_world[about], plan.contact[about])
+    rests_on_edge = -EDGE <= float(margins.min()) < BALANCE_RESERVE - TOLERANCE
+    if problem.model.is_coupled or not rests_on_edge or report.max_tilt > EDGE_TILT:
+        return Severity.ERROR, ""
     return (
-        " The plan rests on the edge of its support there, so that very little decides whether a robot rocks."
+        Severity.WARNING,
+        " The plan rests on the edge of its support there: very little decides whether a robot rocks.",
     )
 
 
@@ -128,14 +131,14 @@ def _swing(report: SimulationReport, problem: SimulationProblem) -> Outcome:
     if share <= SWING_LIMIT or report.fell or report.max_tilt > TILT_LIMIT:
         return Outcome(margin)
     time = float(report.swing_load_times[foot])
+    severity, edge = _rocking(report, problem, time)
     words = (
         f"In the simulation foot {foot + 1} carries load for {share * 100:.0f} % of its swing about "
         f"{time:.1f} s; more than {SWING_LIMIT * 100:.0f} % means that the robot rocks onto it, or that it "
-        f"does not leave the ground.{_edge_words(problem)}"
+        f"does not leave the ground.{edge}"
     )
     remedy = "Ask for a larger stability margin, or for more clearance."
     place = _place(report, problem, time, foot)
-    severity = _rocking(problem)
     return Outcome(margin, (found(margin.rule, severity, words, remedy, share, SWING_LIMIT, **place),))
 
 
@@ -184,108 +187,118 @@ def _balance(report: SimulationReport, problem: SimulationProblem) -> Outcome:
 
 
 def _travel(report: SimulationReport, problem: SimulationProblem) -> Outcome:
-    way, rule = report.way, "simulated_travel"
-    if way.share is not None and not is_made(way.share):
-        words = (
-            f"In the simulation the robot goes {way.made * 1000:.1f} of {way.asked * 1000:.1f} mm, "
-            f"{way.share * 100:.0f} % of its way. {_lost(report, problem)}"
-        )
-        return share_outcome(rule, way.share, words, SEE_SLIDES, _slide_place(report, problem))
-    limit = max(TRAVEL_LIMIT, TRAVEL_SHARE * way.asked)
-    margin = RuleMargin(rule, limit - way.gap, "m")
-    if way.gap <= limit + TOLERANCE:
-        return Outcome(margin if way.share is None else share_margin(rule, way.share))
-    words = (
-        f"In the simulation the robot ends {way.gap * 1000:.1f} mm from where the plan ends, more than "
-        f"{limit * 1000:.1f} mm. {_lost(report, problem)}"
-    )
-    place = _slide_place(report, problem)
-    return Outcome(margin, (found(rule, Severity.WARNING, words, SEE_SLIDES, way.gap, limit, **place),))
+    lost = _lost(report, problem)
+    return travel_outcome("simulated_travel", report.way, "In the simulation the robot", lost)
 
 
 def _heading(report: SimulationReport, problem: SimulationProblem) -> Outcome:
-    way, rule = report.way, "simulated_heading"
-    if way.turn_share is not None and not is_made(way.turn_share):
+    lost = _lost(report, problem)
+    return heading_outcome("simulated_heading", report.way, "In the simulation the body", lost)
+
+
+@dataclass(frozen=True)
+class Lost:
+    """Where way or turn is lost.
+
+    Args:
+        words: a sentence on it.
+        remedy: the way out.
+        place: `sample`, `foot` and `time` at which to look.
+    """
+
+    words: str
+    remedy: str
+    place: dict[str, Any]
+
+
+def travel_outcome(rule: str, way: WayMade, who: str, lost: Lost, least: float = LEAST_SHARE) -> Outcome:
+    """A robot makes its way, and ends near where the plan ends.
+
+    Args:
+        rule: its name.
+        way: what is made.
+        who: how the sentence begins.
+        lost: where way is lost.
+        least: the part of the way below which it is an error.
+    """
+    if way.share is not None and not gets_full_share(way.share):
+        goes = f"{who} goes {way.made * 1000:.1f} of {way.asked * 1000:.1f} mm"
+        words = f"{goes}, {way.share * 100:.0f} % of its way."
+        return _share_outcome(rule, way.share, words, lost, least)
+    limit = max(TRAVEL_LIMIT, TRAVEL_SHARE * way.asked)
+    if way.gap <= limit + TOLERANCE:
+        return Outcome(_way_margin(rule, way.share, RuleMargin(rule, limit - way.gap, "m")))
+    ends = f"{who} ends {way.gap * 1000:.1f} mm from where the plan ends, more than {limit * 1000:.1f} mm."
+    words = f"{ends} {lost.words}"
+    finding = found(rule, Severity.WARNING, words, lost.remedy, way.gap, limit, **lost.place)
+    return Outcome(RuleMargin(rule, limit - way.gap, "m"), (finding,))
+
+
+def heading_outcome(rule: str, way: WayMade, who: str, lost: Lost, least: float = LEAST_SHARE) -> Outcome:
+    """A body makes its turn, and ends with the plan's heading; arguments as of `travel_outcome`."""
+    if way.turn_share is not None and not gets_full_share(way.turn_share):
         words = (
-            f"In the simulation the body turns by {np.degrees(way.made_turn):.1f} of "
-            f"{np.degrees(way.asked_turn):.1f}°, {way.turn_share * 100:.0f} % of its turn. "
-            f"{_lost(report, problem)}"
+            f"{who} turns by {np.degrees(way.made_turn):.1f} of {np.degrees(way.asked_turn):.1f}°, "
+            f"{way.turn_share * 100:.0f} % of its turn."
         )
-        return share_outcome(rule, way.turn_share, words, SEE_SLIDES, _slide_place(report, problem))
+        return _share_outcome(rule, way.turn_share, words, lost, least)
     limit = max(HEADING_LIMIT, TRAVEL_SHARE * way.asked_turn)
-    margin = RuleMargin(rule, limit - way.turn_gap, "rad")
     if way.turn_gap <= limit:
-        return Outcome(margin if way.turn_share is None else share_margin(rule, way.turn_share))
+        return Outcome(_way_margin(rule, way.turn_share, RuleMargin(rule, limit - way.turn_gap, "rad")))
     words = (
-        f"In the simulation the body turns by {np.degrees(report.heading):.1f}°; the plan says "
-        f"{np.degrees(report.planned_heading):.1f}°, which is more than {np.degrees(limit):.0f}° off. "
-        f"{_lost(report, problem)}"
+        f"{who} ends turned {np.degrees(way.turn_gap):.1f}° from the plan's heading, more than "
+        f"{np.degrees(limit):.0f}°. {lost.words}"
     )
-    place = _slide_place(report, problem)
-    return Outcome(margin, (found(rule, Severity.WARNING, words, SEE_SLIDES, way.turn_gap, limit, **place),))
+    finding = found(rule, Severity.WARNING, words, lost.remedy, way.turn_gap, limit, **lost.place)
+    return Outcome(RuleMargin(rule, limit - way.turn_gap, "rad"), (finding,))
 
 
-def _lost(report: SimulationReport, problem: SimulationProblem) -> str:
-    """Where way is lost, in a sentence: a run that ends early, feet that slide, or neither."""
-    missing = problem.waypoints.count - len(report.arrival_times)
-    if missing:
-        time = float(report.arrival_times[-1])
-        return f"The run ended at {time:.1f} s, {missing} of {problem.waypoints.count} waypoints early."
-    slides, moves = longest_slides(report, problem)
-    foot = int(slides.argmax())
-    if slides[foot] > SLIP_LIMIT:
-        time = float(report.arrival_times[moves[foot]])
-        return (
-            f"Foot {foot + 1} slides most, by {slides[foot] * 1000:.1f} mm in one stance about {time:.1f} s."
-        )
-    return (
-        f"No foot slides by more than {SLIP_LIMIT * 1000:.0f} mm in a stance: the body leans by up to "
-        f"{np.degrees(report.max_tilt):.1f}°, and motors stop up to {ARRIVAL_THRESHOLD * 1000:.0f} mm short."
-    )
-
-
-def _slide_place(report: SimulationReport, problem: SimulationProblem) -> dict[str, Any]:
-    """Where a foot slides most, so that one can look at it."""
-    slides, moves = longest_slides(report, problem)
-    foot = int(slides.argmax())
-    return _place(report, problem, float(report.arrival_times[moves[foot]]), foot)
-
-
-def is_made(share: float) -> bool:
+def gets_full_share(share: float) -> bool:
     """Whether so much of a way or a turn gets no warning."""
     return share >= WARNED_SHARE - SHARE_TOLERANCE
 
 
-def walks(share: float, least: float = LEAST_SHARE) -> bool:
+def gets_on(share: float, least: float = LEAST_SHARE) -> bool:
     """Whether so much of a way or a turn is no error."""
     return share >= least - SHARE_TOLERANCE
 
 
-def share_margin(rule: str, share: float) -> RuleMargin:
-    """How far a made part of a way or a turn stays from a warning."""
-    return RuleMargin(rule, share - WARNED_SHARE, "")
+def _way_margin(rule: str, share: float | None, gap: RuleMargin) -> RuleMargin:
+    """How far a part that is made stays from a warning; where none is asked, how far the gap does."""
+    return gap if share is None else RuleMargin(rule, share - WARNED_SHARE, "")
 
 
-def share_outcome(
-    rule: str, share: float, words: str, remedy: str, place: dict[str, Any], *, least: float = LEAST_SHARE
-) -> Outcome:
-    """A way or a turn of which a part is made: too little is a warning, less than the least an error.
+def _share_outcome(rule: str, share: float, words: str, lost: Lost, least: float) -> Outcome:
+    """Too little of a way or a turn is a warning, less than the least part an error."""
+    is_walk = gets_on(share, least)
+    severity, limit = (Severity.WARNING, WARNED_SHARE) if is_walk else (Severity.ERROR, least)
+    allowed = f"Less than {limit * 100:.0f} % {'gets a warning' if is_walk else 'is no walk'}."
+    sentence = f"{words} {lost.words} {allowed}"
+    finding = found(rule, severity, sentence, lost.remedy, share, limit, **lost.place)
+    return Outcome(RuleMargin(rule, share - WARNED_SHARE, ""), (finding,))
 
-    Args:
-        rule: its name.
-        share: the part.
-        words: what is made, in sentences.
-        remedy: the way out.
-        place: where most of it is lost.
-        least: the part below which it is an error.
-    """
-    margin = share_margin(rule, share)
-    if is_made(share):
-        return Outcome(margin)
-    goes = walks(share, least)
-    severity, limit = (Severity.WARNING, WARNED_SHARE) if goes else (Severity.ERROR, least)
-    allowed = f"Less than {limit * 100:.0f} % {'gets a warning' if goes else 'is no walk'}."
-    return Outcome(margin, (found(rule, severity, f"{words} {allowed}", remedy, share, limit, **place),))
+
+def _lost(report: SimulationReport, problem: SimulationProblem) -> Lost:
+    """Where way is lost: in a run that ends early, by feet that slide, or by neither."""
+    slides, moves = longest_slides(report, problem)
+    foot = int(slides.argmax())
+    time = float(report.arrival_times[moves[foot]])
+    place = _place(report, problem, time, foot)
+    missing = problem.waypoints.count - len(report.arrival_times)
+    if missing:
+        ended = float(report.arrival_times[-1])
+        words = f"The run ended at {ended:.1f} s, {missing} of {problem.waypoints.count} waypoints early."
+    elif slides[foot] > SLIP_LIMIT:
+        words = (
+            f"Foot {foot + 1} slides most, by {slides[foot] * 1000:.1f} mm in one stance about {time:.1f} s."
+        )
+    else:
+        words = (
+            f"No foot slides by more than {SLIP_LIMIT * 1000:.0f} mm in a stance: the body leans by up to "
+            f"{np.degrees(report.max_tilt):.1f}°, and motors stop up to {ARRIVAL_THRESHOLD * 1000:.0f} mm "
+            "short."
+        )
+    return Lost(words, SEE_SLIDES, place)
 
 
 def _tracking(report: SimulationReport, problem: SimulationProblem) -> Outcome:

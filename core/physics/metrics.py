@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from core.arrays import Bools, Floats, interpolated, stretches
 from core.motion.support_polygon import stability_margins
-from core.motion.way_made import way_made
+from core.motion.way_made import WayMade, way_made
 from core.physics.motion import SimulatedMotion
 from core.physics.motors import motor_force_limits
 from core.physics.problem import Rig, SimulationProblem
@@ -62,7 +62,7 @@ def report(problem: SimulationProblem, motion: SimulatedMotion) -> SimulationRep
         feet_error=feet_error,
         distance=float(np.linalg.norm(way)),
         planned_distance=float(np.linalg.norm(planned_way)),
-        way=way_made(_planned_way(problem), (middles[arrivals], heading)),
+        way=_way(problem, middles[arrivals], heading),
         heading=float(heading[-1] - heading[0]),
         planned_heading=float(planned[1][-1] - planned[1][0]),
         max_tilt=float(tilt[worst]),
@@ -127,10 +127,18 @@ def soles(problem: SimulationProblem, motion: SimulatedMotion, rotation: Floats)
     return np.asarray(motion.feet_world - problem.model.sole_depth * rotation[:, None, :, 2])
 
 
-def _planned_way(problem: SimulationProblem) -> tuple[Floats, Floats]:
-    """The plan's middles of the feet (count, 2), m, and headings (count,), rad, at all waypoints."""
-    _, heading, feet = _planned_at(problem, problem.waypoints.count)
-    return feet[..., :2].mean(axis=1), heading
+def _way(problem: SimulationProblem, middles: Floats, headings: Floats) -> WayMade:
+    """What is made of the whole plan's way; a robot that does not walk is asked for none.
+
+    Args:
+        problem: what was asked.
+        middles: (reached, 2) of the soles at the arrivals, m.
+        headings: (reached,) rad.
+    """
+    if problem.rig is not Rig.WALKING:
+        return WayMade(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    _, planned, feet = _planned_at(problem, problem.waypoints.count)
+    return way_made((feet[..., :2].mean(axis=1), planned), (middles, headings))
 
 
 def _planned_at(problem: SimulationProblem, reached: int) -> tuple[Floats, Floats, Floats]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import InputError
-from core.physics.findings import SWING_LIMIT, TILT_LIMIT, walks
+from core.physics.findings import SWING_LIMIT, TILT_LIMIT, gets_on
 from core.physics.motors import LEAST_SHARE
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
@@ -69,8 +69,8 @@ class VariedRun:
     def walks(self) -> bool:
         """Whether it neither fell nor rocked onto a foot that should be in the air, and got on."""
         is_upright = self.max_tilt <= TILT_LIMIT and self.swing_load <= SWING_LIMIT
-        gets_on = all(share is None or walks(share) for share in (self.way_share, self.turn_share))
-        return is_upright and gets_on and not self.fell and not self.ended_early
+        advances = all(share is None or gets_on(share) for share in (self.way_share, self.turn_share))
+        return is_upright and advances and not self.fell and not self.ended_early
 
 
 def variations(physics: PhysicsSet, count: int, seed: int, motors: int) -> tuple[Variation, ...]:

@@ -11,7 +11,7 @@ from core.gait.manual_motion import body_advances, stance_slip
 from core.motion.balance import STANDING_DEPTH
 from core.motion.contact_timeline import MAX_SAMPLES
 from core.motion.trajectory import Trajectory, difference_velocities
-from core.robot.leg import foot_from_strokes
+from core.robot.kinematics import feet_in_robot
 from core.robot.model import RobotModel
 from core.wire.waypoints import Waypoints
 
@@ -73,10 +73,8 @@ def motion_of_waypoints(model: RobotModel, waypoints: Waypoints) -> WaypointMoti
             "waypoints",
         )
     _require_strokes(waypoints.strokes)
-    feet_module = foot_from_strokes(model.leg, waypoints.strokes)
-    _require_assembled(feet_module)
-    turned = np.einsum("lij,nlj->nli", model.R_robot_from_module, feet_module)
-    feet_robot = turned + model.module_centres_robot
+    feet_robot = feet_in_robot(model, waypoints.strokes)
+    _require_assembled(feet_robot)
     heights = feet_robot[..., 2]
     deepest = heights.min(axis=1, keepdims=True)
     standing = np.asarray(heights - deepest <= STANDING_DEPTH)

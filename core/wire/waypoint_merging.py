@@ -14,7 +14,7 @@ import numpy as np
 from core.arrays import SAME, Bools, Floats, stretches
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
-from core.robot.coupled_strokes import heights_over_standing
+from core.robot.coupled_strokes import heights_over_standing, real_strokes
 from core.robot.kinematics import feet_in_robot
 from core.robot.model import RobotModel
 from core.wire.robot_time import ARRIVED, PUBLISHED, far_motors
@@ -107,6 +107,8 @@ def plan_of_knots(
     Raises:
         InputError: the tolerance or the bound is no usable number.
     """
+    # Of strokes that shared motors cannot make, those that they make of them are sent.
+    knots = replace(knots, strokes=real_strokes(model, knots.strokes))
     contact = grounded(model, trajectory, knots.strokes)
     kept = list(range(knots.count))
     if merge:

@@ -62,7 +62,7 @@ def simulated_row(
         stored.number,
         variations,
         walked=sum(run.walks for run in runs) / len(runs),
-        simulated_speed=figures.distance / seconds,
+        simulated_speed=figures.way.made / seconds,
         simulated_turn_rate=figures.heading / seconds,
         max_tilt=figures.max_tilt,
         swing_load=float(figures.swing_load.max()),

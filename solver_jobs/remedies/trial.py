@@ -9,8 +9,6 @@ import numpy as np
 
 from core.errors import FootfallError
 from core.gait.gait import Gait, motion_problem
-from core.motion.trajectory import Trajectory
-from core.problem.motion_problem import MotionProblem
 from core.robot.model import RobotModel
 from solver_jobs.results.motion import Lack, MotionResult, SolveStatus
 
@@ -50,6 +48,7 @@ class Trial:
         return known
 
     def _quick(self, gait: Gait) -> bool:
+        from core.checks.made_plan import is_confirmed
         from solver_jobs.live.solve import quick_motion
 
         try:
@@ -57,10 +56,11 @@ class Trial:
         except FootfallError:
             return False
         motion = quick_motion(problem, SIDES)
-        return motion is not None and _is_confirmed(problem, motion)
+        return motion is not None and is_confirmed(problem, motion)
 
     def solved(self, gait: Gait) -> MotionResult | None:
         """The motion of a gait by the full live tier; None if the checker confirms none."""
+        from core.checks.made_plan import is_confirmed
         from solver_jobs.live.solve import solve_live
 
         try:
@@ -68,7 +68,7 @@ class Trial:
         except FootfallError:
             return None
         result = solve_live(problem)
-        is_solved = result.status is SolveStatus.SOLVED and _is_confirmed(problem, result.trajectory)
+        is_solved = result.status is SolveStatus.SOLVED and is_confirmed(problem, result.trajectory)
         return result if is_solved else None
 
     def lacks(self, gait: Gait) -> tuple[Lack, ...]:
@@ -132,11 +132,3 @@ class Trial:
     def first(self, gaits: Iterable[Gait | None]) -> Gait | None:
         """The first gait that works."""
         return next((gait for gait in gaits if gait is not None and self.works(gait)), None)
-
-
-def _is_confirmed(problem: MotionProblem, motion: Trajectory) -> bool:
-    """Whether the checker confirms a motion, and the robot's motors make it."""
-    from core.checks.made_plan import is_made
-    from core.problem.motion_check import check_motion
-
-    return check_motion(problem, motion).confirmed and is_made(problem.model, motion)

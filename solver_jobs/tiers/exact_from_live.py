@@ -26,7 +26,7 @@ SMALLER_MARGINS = (0.002, 0.0)
 
 PATIENCE = 45
 """Iterations after which a smaller margin is taken to give no motion; one that exists takes 9 to 30. They are
-none of the search's own, so that nobody is told of them; a second passes before a cancel is heard."""
+not reported, and a cancel takes effect after about a second."""
 
 MARGIN_FAMILIES = ("body_torque", "margin")
 """What a motion lacks whose margin is too large, by the names of `Lack.family`."""
@@ -42,7 +42,7 @@ def solve_exact(
     result = solve_by_both(problem, progress, resume=resume)
     if result.status is not SolveStatus.INFEASIBLE:
         return result
-    if not any(lack.family in MARGIN_FAMILIES for lack in result.lacks):
+    if problem.model.is_coupled or not any(lack.family in MARGIN_FAMILIES for lack in result.lacks):
         return result
     for margin in (one for one in SMALLER_MARGINS if one < problem.limits.margin):
         smaller = replace(problem, limits=replace(problem.limits, margin=margin))
@@ -52,7 +52,8 @@ def solve_exact(
                 f"Only the margin forbids it: with {margin * 1000:.0f} mm instead of "
                 f"{problem.limits.margin * 1000:.1f} mm there is a motion."
             )
-            return replace(result, explanation=(*result.explanation, words))
+            *told, evidence = result.explanation
+            return replace(result, explanation=(*told, words, evidence))
     return result
 
 

@@ -9,11 +9,10 @@ from functools import partial
 
 import numpy as np
 
-from core.checks.made_plan import RULE, unmade_words
+from core.checks.made_plan import RULE, is_confirmed, unmade_words
 from core.errors import FootfallError
 from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem, with_return
 from core.motion.trajectory import Trajectory
-from core.problem.motion_check import check_motion
 from core.problem.motion_problem import PLANE_HEIGHTS, MotionProblem
 from core.robot.model import RobotModel
 from solver_jobs.results.motion import Iterate, MotionResult, SolveStatus
@@ -99,9 +98,9 @@ class FrontierSearch:
 
     def run(self) -> Frontier:
         """Finds the frontier."""
-        live, gait = self._live()
-        if unmade := self._unmade(live, gait):
+        if self.model.is_coupled and (unmade := self._unmade()):
             return unmade
+        live, gait = self._live()
         count, gait = self._exact(live, gait) if self.exact else (live, gait)
         lacking = self._lacking(gait, count)
         best = self._at(gait, count)
@@ -116,11 +115,15 @@ class FrontierSearch:
             motion=self._last if self.exact or count == 0 else self._start(self._problem(best)),
         )
 
-    def _unmade(self, count: int, gait: Gait) -> Frontier | None:
-        """No frontier, where shared motors make other motions than the ones found; told by the gait's own."""
-        for tried in (self.gait, self._at(gait, count)):
-            motion = self._start(self._problem(tried)) if self.model.is_coupled else None
-            if motion is not None and (words := unmade_words(self.model, motion)):
+    def _unmade(self) -> Frontier | None:
+        """No frontier, where shared motors do not make the gait's motion, or that of a shorter step."""
+        dx, dy, yaw = self.gait.step
+        asked = abs(np.degrees(yaw)) * TURNS_A_DEGREE if self.turns else np.hypot(dx, dy) * STEPS_A_METRE
+        for count in (round(float(asked)), round(float(asked) / 2), 10, 1):
+            tried = self._at(self.gait, count)
+            motion = self._start(self._problem(tried))
+            words = "" if motion is None else unmade_words(self.model, motion)
+            if words:
                 return Frontier(tried, 0.0, self.turns, 0.0, False, (RULE,), (words,), None)
         return None
 
@@ -181,7 +184,7 @@ class FrontierSearch:
 
         problem = self._problem(self._at(gait, count))
         motion = None if problem is None else quick_motion(problem)
-        return problem is not None and motion is not None and check_motion(problem, motion).confirmed
+        return problem is not None and motion is not None and is_confirmed(problem, motion)
 
     def _lacking(self, gait: Gait, count: int) -> MotionResult:
         """What the live tier says just above the frontier."""
@@ -220,7 +223,7 @@ class FrontierSearch:
         if problem is None:
             return False
         result = solve_motion(problem, _with_patience, self._start(problem))
-        works = result.status is SolveStatus.SOLVED and check_motion(problem, result.trajectory).confirmed
+        works = result.status is SolveStatus.SOLVED and is_confirmed(problem, result.trajectory)
         if works:
             self._last = result.trajectory
         return works

@@ -56,7 +56,7 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
         named |= set(re.findall(r'(?:RuleMargin|found|Finding)\(\s*"(\w+)"', text))
         named |= set(re.findall(r'^RULE = "(\w+)"', text, re.MULTILINE))
         named |= set(re.findall(r'^ +"((?:path|made)_\w+)": ', text, re.MULTILINE))
-        named |= set(re.findall(r'rule = report\.way, "(\w+)"', text))
+        named |= set(re.findall(r'(?:travel|heading)_outcome\(\s*"(\w+)"', text))
     assert {row[0] for row in ROWS} == named
 
 

@@ -22,8 +22,6 @@ from solver_jobs import PoseResult, simulate, simulate_variations, solve_poses
 BOARD_CYCLES = 4
 """Cycles in mid-walk whose mean is the speed on the board; one more runs before."""
 VARIATIONS = 64
-NO_WAY = 1e-6
-"""A planned way that is shorter is none, m."""
 MM, MM_S = 1000.0, 1000.0
 
 

@@ -200,7 +200,8 @@ function cameOf(run) {
   const figures = `Tilt up to ${degrees(tilt)}°, ${walked}`;
   if (walks) return ["walks", "", `The robot walks. ${figures}`];
   const made = Math.min(run.way_share ?? 1, run.turn_share ?? 1);
-  if (made < 0.5) return ["tips", "!", `The robot makes ${fixed(made * 100, 0)} % of its way. ${figures}`];
+  const part = fixed(made * 100, 0);
+  if (made < 0.5) return ["tips", "!", `The robot makes ${part} % of its way or turn. ${figures}`];
   return ["tips", "!", `The robot tips onto a foot that should be in the air. ${figures}`];
 }
 

@@ -101,6 +101,11 @@ export function followSimulation(store) {
 /** Whether a finding is an error. @param {Record<string, any>} finding */
 export const isError = ({ severity }) => severity === "error";
 
+const TIPS = ["simulated_fall", "simulated_tilt", "simulated_swing"];
+
+/** Whether a finding is that the robot tips or falls. @param {Record<string, any>} finding */
+export const isTip = (finding) => isError(finding) && TIPS.includes(finding.rule);
+
 /**
  * Word and tone of a simulation.
  * @param {Record<string, any>} simulation
@@ -109,6 +114,7 @@ export const isError = ({ severity }) => severity === "error";
 export function simulationText({ report: outcome, findings }) {
   if (outcome.fell) return ["Falls over", "bad"];
   if (outcome.ended_early) return ["Ended early", "bad"];
-  if (findings.some(isError)) return ["Tips", "bad"];
+  if (findings.some(isTip)) return ["Tips", "bad"];
+  if (findings.some(isError)) return ["Does not walk", "bad"];
   return findings.length ? ["Walks, with warnings", "caution"] : ["Walks", "good"];
 }

@@ -86,7 +86,7 @@ def test_a_gait_changes_to_a_coupled_robot_as_one_edit_and_shows_what_is_made(
     changed = studio.ask("PUT", "/api/gaits/walk-manual-0?label=Robot", {**document, "robot": "deltawalker5"})
     assert changed.status == 200
     plan = changed.content["plan"]
-    assert "5 motors drive the 12 strokes, which are up to 3.4 mm off" in plan["note"]
+    assert "The robot has 5, and misses strokes by up to 3.4 mm" in plan["note"]
     inner = [row[::3] for row in plan["strokes_mm"]]
     assert all(max(row) - min(row) < 1e-3 for row in inner)
     assert max(max(row[::3]) - min(row[::3]) for row in free["strokes_mm"]) > 4

@@ -80,7 +80,7 @@ def verdicts(robot: str, gait_id: str) -> Verdicts | None:
         check_waypoints(model, way.waypoints),
         figures,
         tuple(found for outcome in outcomes for found in outcome.findings),
-        made_plan(model, motion, way.waypoints, way.kept).way.share if model.is_coupled else None,
+        made_plan(model, motion, way).way.share if model.is_coupled else None,
     )
 
 

@@ -152,7 +152,7 @@ def test_a_gait_that_is_asked_to_go_nowhere_is_judged_by_millimetres_and_degrees
     turned = made.turned(PLANNED, np.linspace(0.0, -0.06, len(PLANNED.times)))
     (one,) = [one for one in findings(turned) if one.rule == "simulated_heading"]
     assert one.severity is Severity.WARNING
-    assert "turns by -3.4°; the plan says 0.0°" in one.sentence
+    assert "ends turned 3.4° from the plan's heading, more than 2°" in one.sentence
 
 
 def test_a_rig_that_does_not_walk_is_not_asked_how_far_it_goes() -> None:

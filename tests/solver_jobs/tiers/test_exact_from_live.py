@@ -74,7 +74,7 @@ def stepping(gait: str, step: float) -> MotionProblem:
 def test_a_no_says_where_the_margin_alone_forbids_a_motion(gait: str) -> None:
     result = solve_exact(stepping(gait, 0.025))
     assert result.status is SolveStatus.INFEASIBLE
-    assert result.explanation[-1] == (
+    assert result.explanation[-2] == (
         "Only the margin forbids it: with 2 mm instead of 6.0 mm there is a motion."
     )
 

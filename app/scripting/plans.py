@@ -49,7 +49,7 @@ class Plan:
         status: `solved`, `infeasible` or `failed`; `given` of a table, a recording or waypoints.
         robot: whose motion it is.
         gait: the document; None of waypoints.
-        explanation: sentences on why there is no motion; empty where there is one.
+        explanation: sentences on why there is no motion, or why the robot makes another one; else empty.
         figures: what the command of that name prints with `--json`, in SI.
         trajectory: the motion in full; None where there is none.
         way: what would be sent; None where there is no motion.

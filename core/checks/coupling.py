@@ -44,7 +44,7 @@ MOVE_ALIKE = "Move feet that share a motor alike, or choose a robot with more mo
 
 
 def check_made(plan: CheckedPlan, *, is_simulated: bool = False) -> list[Outcome]:
-    """How a robot with shared motors rests, leans, lifts, slides and gets on along a plan.
+    """How a robot with shared motors rests, leans, lifts, slides and goes along a plan.
 
     Args:
         plan: what is checked.

@@ -1,4 +1,4 @@
-"""What motors that share actuators make of a plan.
+"""The motion that a robot with shared motors makes where another one is planned.
 
 Strokes are made as h = C·u (`core.robot.coupled_strokes`), the robot rests on the feet that then reach the
 ground, and friction moves its body (`core.physics.quasi_static`).

@@ -26,7 +26,7 @@ EVERY = 5
 SUPPORT_ROUNDS = 20
 """Changes of the feet that push, at most; a foot more or less then carries next to nothing."""
 ON_EDGE = 1e-9
-"""A centre of mass may be so far outside a face, as part of its width."""
+"""Tolerance for a centre of mass outside a face, as part of its width."""
 FLAT = 1e-6
 """Faces of a smaller area than this are lines, m²."""
 FIT_ROUNDS = 40
@@ -34,7 +34,7 @@ FIT_ROUNDS = 40
 NEAR = 1e-8
 """The body's place is known when it changes by less, m."""
 STILL = 1e-12
-"""Feet that are less off their place count as so far off, m."""
+"""Smallest distance that is divided by, m."""
 
 
 @dataclass(frozen=True, eq=False)

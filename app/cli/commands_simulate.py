@@ -197,8 +197,7 @@ def _lines(
         f"{figures.realtime_factor:.1f} × real time; {problem.physics.title}, {problem.rig.value}.",
         f"  mean error   body {figures.body_error * 1000:.1f} mm, feet {_mm(feet)} mm "
         f"(mean {figures.feet_mean_error * 1000:.1f} mm)",
-        f"  way          {_share_words(figures.way.made * 1000, figures.way.asked * 1000, 'mm')}; it ends "
-        f"{figures.way.gap * 1000:.1f} mm from the plan's end",
+        f"  way          {_way_words(figures)}",
         f"  turn         {_turn_words(figures)}",
         f"  largest tilt {np.degrees(figures.max_tilt):.1f}° at {figures.max_tilt_time:.1f} s",
         f"  least margin {margin}",
@@ -212,7 +211,15 @@ def _lines(
 
 
 def _share_words(made: float, asked: float, unit: str) -> str:
-    return f"{made:.1f} of {asked:.1f} {unit} ({made / asked * 100:.0f} %)" if asked else "none is asked"
+    return f"{made:.1f} of {asked:.1f} {unit} ({made / asked * 100:.0f} %)"
+
+
+def _way_words(figures: SimulationReport) -> str:
+    way = figures.way
+    if not way.asked:
+        return f"none is asked; the robot ends {way.gap * 1000:.1f} mm from the plan's end"
+    made = _share_words(way.made * 1000, way.asked * 1000, "mm")
+    return f"{made}; the robot ends {way.gap * 1000:.1f} mm from the plan's end"
 
 
 def _turn_words(figures: SimulationReport) -> str:

@@ -7,7 +7,6 @@ import numpy as np
 
 from core.arrays import Floats, stretches
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
-from core.motion.balance import BALANCE_RESERVE
 from core.motion.support_polygon import stability_margins
 from core.motion.way_made import LEAST_SHARE, WARNED_SHARE, WayMade
 from core.physics.problem import Rig, SimulationProblem
@@ -20,7 +19,7 @@ SWING_LIMIT = 0.5
 """A foot that carries load for a larger part of a swing bears the robot that rocks onto it, or stays down;
 feet that are in the air have at most 0.13 by measurement, those that bear a robot 0.87 and more."""
 EDGE = 0.0001
-"""A plan whose centre of mass is so far outside its support still rests on the edge, m."""
+"""A plan whose centre of mass is no further from the edge of its support rests on the edge, m."""
 EDGE_TILT = float(np.radians(8.0))
 """A body that leans further has not only rocked from one edge to the next foot, rad; the published gaits by
 hand lean by 6.7°."""
@@ -116,7 +115,7 @@ def _rocking(report: SimulationReport, problem: SimulationProblem, time: float) 
     plan, knot = problem.plan, int(_place(report, problem, time)["sample"])
     about = slice(max(knot - KNOTS_ABOUT, 0), knot + KNOTS_ABOUT + 1)
     margins = stability_margins(plan.body_world[about, :2], plan.feet_world[about], plan.contact[about])
-    rests_on_edge = -EDGE <= float(margins.min()) < BALANCE_RESERVE - TOLERANCE
+    rests_on_edge = abs(float(margins.min())) <= EDGE
     if problem.model.is_coupled or not rests_on_edge or report.max_tilt > EDGE_TILT:
         return Severity.ERROR, ""
     return (

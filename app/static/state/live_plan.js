@@ -6,7 +6,7 @@
 import { api } from "../api/gaits.js";
 import { painted } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
-import { isTip, simulationOver, simulationText } from "./simulation.js";
+import { isTip, simulationOver } from "./simulation.js";
 import { hasNoMotion, ownPlan, shownDocument, shownText } from "./store.js";
 
 /**
@@ -119,7 +119,7 @@ export const isDrawing = (document) =>
  */
 export function fallOf(state) {
   const simulation = simulationOver({ ...state, tryout: null, iterate: null });
-  if (!simulation || !isDrawing(shownDocument(state)) || simulationText(simulation)[1] !== "bad") return null;
+  if (!simulation || !isDrawing(shownDocument(state))) return null;
   return simulation.findings.find(isTip) ?? null;
 }
 

@@ -104,7 +104,7 @@ export const isError = ({ severity }) => severity === "error";
 const TIPS = ["simulated_fall", "simulated_tilt", "simulated_swing"];
 
 /** Whether a finding is that the robot tips or falls. @param {Record<string, any>} finding */
-export const isTip = (finding) => isError(finding) && TIPS.includes(finding.rule);
+export const isTip = ({ rule }) => TIPS.includes(rule);
 
 /**
  * Word and tone of a simulation.
@@ -114,7 +114,8 @@ export const isTip = (finding) => isError(finding) && TIPS.includes(finding.rule
 export function simulationText({ report: outcome, findings }) {
   if (outcome.fell) return ["Falls over", "bad"];
   if (outcome.ended_early) return ["Ended early", "bad"];
-  if (findings.some(isTip)) return ["Tips", "bad"];
-  if (findings.some(isError)) return ["Does not walk", "bad"];
+  const errors = findings.filter(isError);
+  if (findings.some(isTip)) return ["Tips", errors.length ? "bad" : "caution"];
+  if (errors.length) return ["Does not walk", "bad"];
   return findings.length ? ["Walks, with warnings", "caution"] : ["Walks", "good"];
 }

@@ -208,7 +208,7 @@ def test_physics_of_worker_processes_is_that_of_the_same_gait_alone_and_leaves_t
     assert kept.walked == sum(run.walks for run in runs) / 2
     assert kept.max_tilt == figures.max_tilt
     assert kept.slip == figures.slip.max()
-    assert kept.simulated_speed == pytest.approx(figures.distance / figures.arrival_times[-1])
+    assert kept.simulated_speed == pytest.approx(figures.way.made / figures.arrival_times[-1])
     assert kept.simulated_speed == pytest.approx(choice.rows[0].speed, rel=0.1)
 
 

@@ -114,9 +114,11 @@ def report_content(report: SimulationReport) -> Json:
 
 
 def report_from_content(content: Json) -> SimulationReport:
-    """Inverse of `report_content`."""
+    """Inverse of `report_content`; also of one that an earlier version kept."""
     values: Json = {
-        name: np.array(value) if isinstance(value, list) else value for name, value in content.items()
+        name: np.array(value) if isinstance(value, list) else value
+        for name, value in with_way(content).items()
+        if name != "goal_gap"
     }
     values["way"] = WayMade(**_without_shares(values["way"]))
     return SimulationReport(**values)

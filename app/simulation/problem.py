@@ -21,8 +21,8 @@ from core.physics.report import SimulationReport
 from core.robot.model import RobotModel
 from core.wire.waypoint_merging import WaypointPlan
 
-FORM = 3
-"""Of what is kept of a simulation; grows with a change of the physics or its report between versions."""
+FORM = 2
+"""Of what is kept of a simulation; grows with a change of the physics, or of its report that cannot be read."""
 SAME_DECIMALS = 6
 """Of s, m and rad: times and places that agree to them are the same."""
 

@@ -22,7 +22,7 @@ from core.robot.model import RobotModel
 from core.wire.waypoint_merging import WaypointPlan
 
 FORM = 2
-"""Of what is kept of a simulation; grows with a change of the physics, or of its report that cannot be read."""
+"""Of what is kept of a simulation; grows with the physics, and with a report that is not readable then."""
 SAME_DECIMALS = 6
 """Of s, m and rad: times and places that agree to them are the same."""
 

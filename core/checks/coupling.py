@@ -21,7 +21,7 @@ from core.checks.made_plan import (
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
 from core.gait.held_feet import feet_words
 from core.motion.balance import BALANCE_RESERVE
-from core.motion.way_made import LEAST_SHARE
+from core.motion.way_made import COMES_BACK, LEAST_SHARE
 from core.physics.findings import TILT_LIMIT, Lost, heading_outcome, travel_outcome
 from core.robot.coupled_strokes import real_strokes
 from core.robot.model import RobotModel
@@ -83,7 +83,8 @@ def _steps(model: RobotModel, poses: MadePoses) -> Outcome:
     motion = poses.motion
     slides, rises = motion.slides.sum(axis=0), np.nan_to_num(motion.heights).max(axis=0)
     reach = float(np.linalg.norm(model.module_centres_robot[:, :2], axis=1).mean())
-    goes = float(np.hypot(np.linalg.norm(motion.middles, axis=1), reach * motion.headings).max())
+    away = np.hypot(np.linalg.norm(motion.middles, axis=1), reach * motion.headings)
+    goes = float(away[-1] if away[-1] >= COMES_BACK * away.max() else away.max())
     mean, limit = float(slides.mean()), max(MOST_SLIDING * goes, SLIDING_LIMIT)
     findings = []
     for foot in np.nonzero((slides > SLIDING_LIMIT) & (rises < CLEARANCE_LIMIT - TOLERANCE))[0].tolist():

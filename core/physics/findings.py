@@ -109,13 +109,13 @@ def _tilt(report: SimulationReport, problem: SimulationProblem) -> Outcome:
 def _rocking(report: SimulationReport, problem: SimulationProblem, time: float) -> tuple[Severity, str]:
     """How bad it is that a robot rocks at a simulated time, and a sentence on it.
 
-    Where the plan itself rests on the edge of its support, very little decides whether a robot rocks. A robot
-    with shared motors makes another motion than its plan.
+    Where the plan itself rests on the edge of its support, and is nowhere beyond it, very little decides
+    whether a robot rocks. A robot with shared motors makes another motion than its plan.
     """
     plan, knot = problem.plan, int(_place(report, problem, time)["sample"])
-    about = slice(max(knot - KNOTS_ABOUT, 0), knot + KNOTS_ABOUT + 1)
-    margins = stability_margins(plan.body_world[about, :2], plan.feet_world[about], plan.contact[about])
-    rests_on_edge = abs(float(margins.min())) <= EDGE
+    margins = stability_margins(plan.body_world[:, :2], plan.feet_world, plan.contact)
+    about = margins[max(knot - KNOTS_ABOUT, 0) : knot + KNOTS_ABOUT + 1]
+    rests_on_edge = float(margins.min()) >= -EDGE and float(about.min()) <= EDGE
     if problem.model.is_coupled or not rests_on_edge or report.max_tilt > EDGE_TILT:
         return Severity.ERROR, ""
     return (

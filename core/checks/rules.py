@@ -1,7 +1,8 @@
 """Every rule that a plan must keep before a person may approve it, in one list.
 
 The rules, by kind: `motors`, `balance` and `ground`, or `coupling` where motors share actuators, `shoes`,
-`arms`, `document`, `path` for the way between waypoints, and `simulation` for what the physics finds.
+`arms`, `document`, `path` for the way between waypoints, and `simulation` for what the physics finds, by
+which `rocking` judges a robot that rocks onto a foot.
 """
 
 from collections.abc import Sequence
@@ -24,6 +25,7 @@ from core.checks.motors import (
     still_note,
 )
 from core.checks.path import SLACK_NOTE, check_path, send_costs
+from core.checks.rocking import rocking_judged
 from core.checks.shoes import check_shoes, check_shoes_of_waypoints
 from core.checks.simulation import Simulated, check_simulation, simulation_note
 from core.findings import Finding, Outcome, Severity, Verdict
@@ -54,8 +56,9 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
     if plan.way is not None:
         outcomes += check_path(plan.model, plan.trajectory, plan.way)
     outcomes += check_simulation(simulated)
-    findings = [finding for outcome in outcomes for finding in outcome.findings]
-    verdict = _verdict(plan.model, plan.waypoints, [*findings, *check_origin(plan)], outcomes)
+    found = [finding for outcome in outcomes for finding in outcome.findings]
+    findings = rocking_judged([*found, *check_origin(plan)], plan.model, simulated)
+    verdict = _verdict(plan.model, plan.waypoints, findings, outcomes)
     if simulated is not None:
         verdict = replace(verdict, simulation=simulated.key)
     notes = [acceleration_note(plan), simulation_note(simulated)]
@@ -83,8 +86,8 @@ def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
         *check_shoes_of_waypoints(model, waypoints),
         *check_arms_of_waypoints(model, waypoints),
     ]
-    findings = [finding for outcome in outcomes for finding in outcome.findings]
-    return _verdict(model, waypoints, findings, outcomes)
+    found = [finding for outcome in outcomes for finding in outcome.findings]
+    return _verdict(model, waypoints, rocking_judged(found, model), outcomes)
 
 
 def _standing_rules(model: RobotModel, waypoints: Waypoints) -> list[Outcome]:

@@ -275,25 +275,45 @@ def approve(
     return Approval(*hashes, by.strip(), when_text, seen, verdict.robot_hash, VERDICT_FORM, overridden)
 
 
+def override_all(verdict: Verdict, reason: str) -> OverrideRequest:
+    """The override of every error that stands.
+
+    Args:
+        verdict: with its errors.
+        reason: why.
+
+    Raises:
+        InputError: there is no reason, no error stands, or one that may not be overridden.
+    """
+    if not verdict.errors:
+        raise InputError("No error stands that could be overridden. Leave the override out.", "override")
+    final = next((error for error in verdict.errors if not error.is_overridable), None)
+    if final is not None:
+        raise InputError(f"{final.sentence} {final_words(final.rule)}", "override")
+    request = OverrideRequest(tuple(sorted({error.rule for error in verdict.errors})), reason)
+    _override(verdict, request)
+    return request
+
+
 def _override(verdict: Verdict, request: OverrideRequest) -> Override:
     reason = request.reason.strip()
     if not is_visible(reason) or len(reason) > MOST_REASON:
         raise InputError(
-            f"An override needs a reason of 1 to {MOST_REASON} characters: write why the robot may move in "
+            f"An override needs a reason of 1 to {MOST_REASON} characters. Write why the robot may move in "
             "spite of these errors.",
-            "override.reason",
+            "override",
         )
     if not request.rules:
-        raise InputError("An override names the rules whose errors it is about.", "override.rules")
+        raise InputError("An override must name the rules whose errors it is about.", "override")
     standing = {error.rule for error in verdict.errors}
     for rule in request.rules:
         if rule not in OVERRIDABLE:
-            raise InputError(final_words(rule), "override.rules")
+            raise InputError(final_words(rule), "override")
         if rule not in standing:
             raise StateError(
                 f"No error of the rule “{rule}” stands, so there is nothing to override. Look at the check "
                 "and approve again.",
-                "override.rules",
+                "override",
             )
     return Override(tuple(sorted(set(request.rules))), reason, verdict.errors)
 
@@ -302,5 +322,5 @@ def final_words(rule: str) -> str:
     """Why errors of a rule cannot be overridden, in a sentence."""
     why = FINAL.get(rule)
     if why is None:
-        return f"There is no rule “{rule}” that may be overridden; these may be: {', '.join(OVERRIDABLE)}."
-    return f"Errors of the rule “{rule}” cannot be overridden. {why} Correct the gait."
+        return f"There is no rule “{rule}” that may be overridden. These may be: {', '.join(OVERRIDABLE)}."
+    return f"Errors of the rule “{rule}” cannot be overridden. {why}"

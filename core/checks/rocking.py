@@ -11,8 +11,8 @@ from core.robot.model import RobotModel
 ROCKING_RULES = ("balance", "path_balance")
 """Rules whose errors mean that the robot rocks onto a foot, if it does not fall."""
 SIMULATE = (
-    "Or simulate: where the robot only rocks onto a foot and does not fall, this is a warning. Or override it "
-    "with a reason."
+    "Or simulate: where the robot only rocks onto a foot and does not fall, this is a warning. Or override "
+    "the rule with a reason."
 )
 
 

@@ -47,7 +47,8 @@ def physics_outcomes(report: SimulationReport, problem: SimulationProblem) -> tu
 
     Falling, tilting, load on a swinging foot, ending early and less than half of the way or turn are errors;
     slip, lost balance, less of the way or turn than asked, motors that fall behind and motors at their
-    force's limit are warnings, and so is rocking where the plan has no reserve. Samples are the plan's knots, times the simulated robot's.
+    force's limit are warnings, and so is rocking where the plan has no reserve. Samples are the plan's knots,
+    times the simulated robot's.
 
     Args:
         report: of the run.

@@ -7,8 +7,13 @@ import { capital, counted, fixed, readable, ruleName, shortHash } from "../lib/f
 import { needOperator } from "../state/operator.js";
 import { openedStep, openStep } from "../steps/steps.js";
 import { costTable, sendingFields } from "./sending.js";
+import { askOverride, errorsOf, overrideNote, ruleNames, rulesOf } from "../state/override.js";
 import { checkGone } from "../state/store.js";
 import { attempt, toast } from "../lib/toasts.js";
+
+const APPROVED_ONCE = "After an edit or a new simulation, you must approve the gait again.";
+const OVERRIDE_WHY = "You may approve in spite of these errors. Approve asks for the reason.";
+const OVERRIDE_HELP = "Approve asks for a reason, and the studio saves it with the approval";
 
 function findingItem(finding, goTo) {
   const place = [
@@ -26,6 +31,7 @@ function findingItem(finding, goTo) {
     h(
       "span",
       { class: "where" },
+      finding.overridable && h("span", { text: "may be overridden", title: OVERRIDE_HELP }),
       place && h("span", { text: place }),
       finding.time !== null
         && h("span", {
@@ -74,17 +80,26 @@ function uncheckedNote(view, before) {
   return h("p", { class: isOld ? "box-note" : "why", data: { tone: isOld ? "caution" : "plain" }, text });
 }
 
+/** The errors of a verdict that nobody may override. */
+const finalErrors = (verdict) => errorsOf(verdict).filter(({ overridable }) => !overridable);
+
+/** What is to be done about the findings. */
+function adviceOn(verdict) {
+  if (verdict.passed) return "Read the findings before you approve.";
+  if (finalErrors(verdict).length) return "Errors block approval.";
+  return "Correct the gait, or press Approve to override the errors with a reason.";
+}
+
 function summary(view, before) {
   const { verdict } = view;
   if (!verdict) return uncheckedNote(view, before);
   const warnings = warningsOf(verdict).length;
-  const errors = verdict.findings.length - warnings;
+  const errors = errorsOf(verdict).length;
   if (!errors && !warnings) return "";
   const counts = [errors && counted(errors, "error"), warnings && counted(warnings, "warning")]
     .filter(Boolean)
     .join(", ");
-  const advice = verdict.passed ? "Read the findings before you approve." : "Errors block approval.";
-  const text = `${counts}. ${advice}`;
+  const text = view.approval?.override ? `${counts}.` : `${counts}. ${adviceOn(verdict)}`;
   return h("p", { class: "box-note", data: { tone: verdict.passed ? "caution" : "bad" } }, h("b", { text }));
 }
 
@@ -123,8 +138,9 @@ function whyNotCheck({ view, pending }) {
 
 function whyNotApprove({ view, pending, seenWarnings }) {
   if (!view?.verdict || pending.length) return "Check this version of the gait first.";
-  if (!view.verdict.passed) return "The check failed. Errors block approval.";
   if (view.approval) return `${view.approval.by} has already approved this gait.`;
+  const final = rulesOf(finalErrors(view.verdict));
+  if (final.length) return `The check failed. These errors cannot be overridden: ${ruleNames(final)}.`;
   if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash)
     return "There are warnings. Read each warning, then tick “I have seen …”.";
   return null;
@@ -140,7 +156,7 @@ function warningTick(store) {
   );
   const show = ({ view, seenWarnings }) => {
     const warnings = warningsOf(view?.verdict);
-    element.hidden = !warnings.length || !view.verdict.passed || Boolean(view.approval);
+    element.hidden = !warnings.length || finalErrors(view.verdict).length > 0 || Boolean(view.approval);
     box.checked = seenWarnings !== undefined && seenWarnings === view?.verdict?.hash;
     count.textContent =
       warnings.length === 1 ? "I have seen this warning" : `I have seen these ${warnings.length} warnings`;
@@ -152,6 +168,9 @@ async function approve(store) {
   const { selected, view } = store.state;
   const by = await needOperator(store, "The studio saves your name and the time with the approval.");
   if (!by) return;
+  const errors = errorsOf(view.verdict);
+  const override = errors.length ? await askOverride(errors) : null;
+  if (errors.length && !override) return;
   if (store.state.selected !== selected || store.state.view?.plan?.hash !== view.plan.hash) {
     toast("The gait has changed since the check. Check the gait again.");
     return;
@@ -161,6 +180,7 @@ async function approve(store) {
     by,
     view.verdict.hash,
     store.state.seenWarnings === view.verdict.hash,
+    override,
   );
   if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
   store.set({
@@ -227,12 +247,12 @@ export function mountCheck(store, edits, goTo) {
         "Allows the studio to send exactly the checked waypoints to the robot",
       );
       checkButton.classList.toggle("primary", !view?.verdict?.passed);
-      approveButton.classList.toggle("primary", !blocked);
+      approveButton.classList.toggle("primary", !blocked && view.verdict.passed);
       why.textContent = view?.approval
         ? ""
-        : (blocked ?? "After an edit or a new simulation, you must approve the gait again.");
+        : (blocked ?? (view?.verdict?.passed ? APPROVED_ONCE : OVERRIDE_WHY));
       if (!view) return;
-      head.replaceChildren(summary(view, checked[view.id]));
+      head.replaceChildren(overrideNote(view.approval) ?? "", summary(view, checked[view.id]));
       foot.replaceChildren(approvalBox(view));
       const findings = (view.verdict?.findings ?? []).map((finding) => findingItem(finding, goTo));
       body.replaceChildren(

@@ -11,6 +11,7 @@ import { openDrawer } from "../shell/drawers.js";
 import { robotTone } from "../shell/topbar.js";
 import { leasePart, whyNotHeld } from "../state/lease.js";
 import { needOperator } from "../state/operator.js";
+import { overrideNote } from "../state/override.js";
 import { commandedStrokes } from "../state/plan_samples.js";
 import { acceptRobot, planIsOn, runIsOn, stopLimit } from "../state/store.js";
 import { jogPart } from "./jog.js";
@@ -143,6 +144,7 @@ function build(store) {
       on: { click: () => openDrawer("runs") },
     }),
     record: h("p", { class: "why", role: "status", "aria-label": "Record", data: { toneText: "caution" } }),
+    override: h("div"),
     bars: strokeBars(),
     stopText: h("p", { class: "stop-text", title: STOP_HELP }),
   };
@@ -169,7 +171,7 @@ function assemble({ store, edits, playback }, parts, send) {
   const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", key), parts.bars.element);
   const jog = jogPart(store, edits);
   const more = h("div", { class: "after-run" }, jog, robotFaults(store));
-  const above = [leasePart(store), before, runningPart(store), parts.record, strokes];
+  const above = [leasePart(store), parts.override, before, runningPart(store), parts.record, strokes];
   byId("robot").append(...above, more, robotLog(store));
   keepPlace(
     above,
@@ -360,6 +362,10 @@ export function mountRobot(store, edits, playback) {
   store.watch(
     ({ view, runSummary, selected }) => [view, runSummary, selected],
     (state) => showSummary(parts.summary, state),
+  );
+  store.watch(
+    ({ view }) => [view?.approval],
+    ({ view }) => parts.override.replaceChildren(overrideNote(view?.approval) ?? ""),
   );
   followSummary(store);
   return send.cancel;

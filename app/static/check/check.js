@@ -11,6 +11,7 @@ import { askOverride, errorsOf, overrideNote, ruleNames, rulesOf } from "../stat
 import { checkGone } from "../state/store.js";
 import { attempt, toast } from "../lib/toasts.js";
 
+const CHECK_HELP = "Tests every rule on the waypoints that would be sent to the robot";
 const APPROVED_ONCE = "After an edit or a new simulation, you must approve the gait again.";
 const OVERRIDE_WHY = "You may approve in spite of these errors. Approve asks for the reason.";
 const OVERRIDE_HELP = "Approve asks for a reason, and the studio saves it with the approval";
@@ -82,6 +83,8 @@ function uncheckedNote(view, before) {
 
 /** The errors of a verdict that nobody may override. */
 const finalErrors = (verdict) => errorsOf(verdict).filter(({ overridable }) => !overridable);
+
+const approvalNote = ({ passed }) => (passed ? APPROVED_ONCE : OVERRIDE_WHY);
 
 /** What is to be done about the findings. */
 function adviceOn(verdict) {
@@ -228,18 +231,21 @@ export function mountCheck(store, edits, goTo) {
   );
   const tick = warningTick(store);
   byId("foot-check").append(tick.element, h("div", { class: "solve" }, checkButton, approveButton), why);
-  byId("check").append(head, sendingFields(store, edits), body, foot, approvalHistory(store));
+  byId("check").append(
+    overrideNote(store),
+    head,
+    sendingFields(store, edits),
+    body,
+    foot,
+    approvalHistory(store),
+  );
 
   store.watch(
     ({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings],
     (state) => {
       tick.show(state);
       const { view, checked } = state;
-      setAllowed(
-        checkButton,
-        whyNotCheck(state),
-        "Tests every rule on the waypoints that would be sent to the robot",
-      );
+      setAllowed(checkButton, whyNotCheck(state), CHECK_HELP);
       const blocked = whyNotApprove(state);
       setAllowed(
         approveButton,
@@ -248,11 +254,9 @@ export function mountCheck(store, edits, goTo) {
       );
       checkButton.classList.toggle("primary", !view?.verdict?.passed);
       approveButton.classList.toggle("primary", !blocked && view.verdict.passed);
-      why.textContent = view?.approval
-        ? ""
-        : (blocked ?? (view?.verdict?.passed ? APPROVED_ONCE : OVERRIDE_WHY));
+      why.textContent = view?.approval ? "" : (blocked ?? approvalNote(view.verdict));
       if (!view) return;
-      head.replaceChildren(overrideNote(view.approval) ?? "", summary(view, checked[view.id]));
+      head.replaceChildren(summary(view, checked[view.id]));
       foot.replaceChildren(approvalBox(view));
       const findings = (view.verdict?.findings ?? []).map((finding) => findingItem(finding, goTo));
       body.replaceChildren(

@@ -144,7 +144,6 @@ function build(store) {
       on: { click: () => openDrawer("runs") },
     }),
     record: h("p", { class: "why", role: "status", "aria-label": "Record", data: { toneText: "caution" } }),
-    override: h("div"),
     bars: strokeBars(),
     stopText: h("p", { class: "stop-text", title: STOP_HELP }),
   };
@@ -171,7 +170,7 @@ function assemble({ store, edits, playback }, parts, send) {
   const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", key), parts.bars.element);
   const jog = jogPart(store, edits);
   const more = h("div", { class: "after-run" }, jog, robotFaults(store));
-  const above = [leasePart(store), parts.override, before, runningPart(store), parts.record, strokes];
+  const above = [leasePart(store), overrideNote(store), before, runningPart(store), parts.record, strokes];
   byId("robot").append(...above, more, robotLog(store));
   keepPlace(
     above,
@@ -362,10 +361,6 @@ export function mountRobot(store, edits, playback) {
   store.watch(
     ({ view, runSummary, selected }) => [view, runSummary, selected],
     (state) => showSummary(parts.summary, state),
-  );
-  store.watch(
-    ({ view }) => [view?.approval],
-    ({ view }) => parts.override.replaceChildren(overrideNote(view?.approval) ?? ""),
   );
   followSummary(store);
   return send.cancel;

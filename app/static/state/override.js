@@ -1,7 +1,7 @@
 /** Approvals in spite of errors: what may be overridden, the question for the reason, and the note on it. */
 
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
-import { h } from "../lib/dom.js";
+import { h, setText } from "../lib/dom.js";
 import { lowered, ruleName } from "../lib/format.js";
 
 const MOST_REASON = 300;
@@ -27,13 +27,20 @@ export const overrideText = ({ rules, reason }, by) =>
   `Approved in spite of: ${ruleNames(rules)}, by ${by}: ${reason}`;
 
 /**
- * The note on an approval in spite of errors, or null where it is of none.
- * @param {{by: string, override: Override|null}|null|undefined} approval
+ * A note on the shown gait's approval; hidden where that is not in spite of errors.
+ * @param {import("./store.js").Store} store
  */
-export function overrideNote(approval) {
-  if (!approval?.override) return null;
-  const text = overrideText(approval.override, approval.by);
-  return h("p", { class: "box-note", role: "note", data: { tone: "caution" }, text });
+export function overrideNote(store) {
+  const note = h("p", { class: "box-note", role: "note", data: { tone: "caution" } });
+  store.watch(
+    ({ view }) => [view?.approval],
+    ({ view }) => {
+      const { override, by } = view?.approval ?? {};
+      note.hidden = !override;
+      setText(note, override ? overrideText(override, by) : "");
+    },
+  );
+  return note;
 }
 
 /**

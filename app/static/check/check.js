@@ -84,6 +84,8 @@ function uncheckedNote(view, before) {
 /** The errors of a verdict that nobody may override. */
 const finalErrors = (verdict) => errorsOf(verdict).filter(({ overridable }) => !overridable);
 
+const isCheckNext = (view) => !view?.verdict?.passed && !view?.approval?.override;
+
 const approvalNote = ({ passed }) => (passed ? APPROVED_ONCE : OVERRIDE_WHY);
 
 /** What is to be done about the findings. */
@@ -252,8 +254,8 @@ export function mountCheck(store, edits, goTo) {
         blocked,
         "Allows the studio to send exactly the checked waypoints to the robot",
       );
-      checkButton.classList.toggle("primary", !view?.verdict?.passed);
-      approveButton.classList.toggle("primary", !blocked && view.verdict.passed);
+      checkButton.classList.toggle("primary", isCheckNext(view));
+      approveButton.classList.toggle("primary", !blocked && !isCheckNext(view));
       why.textContent = view?.approval ? "" : (blocked ?? approvalNote(view.verdict));
       if (!view) return;
       head.replaceChildren(summary(view, checked[view.id]));

@@ -109,7 +109,7 @@ export function approvalState(now) {
   const { view, checked } = now;
   if (view?.approval && !isEdited(now)) {
     const { by, override } = view.approval;
-    return state("done", override ? `by ${by}, in spite of errors` : `by ${by}`);
+    return state("done", override ? `by ${by}, with errors` : `by ${by}`);
   }
   if (view?.approval || view?.revoked || (view && checked[view.id]?.word === "approved"))
     return state("old", "no longer valid");

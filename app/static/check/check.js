@@ -7,7 +7,7 @@ import { capital, counted, fixed, readable, ruleName, shortHash } from "../lib/f
 import { needOperator } from "../state/operator.js";
 import { openedStep, openStep } from "../steps/steps.js";
 import { costTable, sendingFields } from "./sending.js";
-import { askOverride, errorsOf, overrideNote, ruleNames, rulesOf } from "../state/override.js";
+import { askOverride, errorsOf, overrideNote, whyNotOverride } from "../state/override.js";
 import { checkGone } from "../state/store.js";
 import { attempt, toast } from "../lib/toasts.js";
 
@@ -81,9 +81,6 @@ function uncheckedNote(view, before) {
   return h("p", { class: isOld ? "box-note" : "why", data: { tone: isOld ? "caution" : "plain" }, text });
 }
 
-/** The errors of a verdict that nobody may override. */
-const finalErrors = (verdict) => errorsOf(verdict).filter(({ overridable }) => !overridable);
-
 const isCheckNext = (view) => !view?.verdict?.passed && !view?.approval?.override;
 
 const approvalNote = ({ passed }) => (passed ? APPROVED_ONCE : OVERRIDE_WHY);
@@ -91,7 +88,7 @@ const approvalNote = ({ passed }) => (passed ? APPROVED_ONCE : OVERRIDE_WHY);
 /** What is to be done about the findings. */
 function adviceOn(verdict) {
   if (verdict.passed) return "Read the findings before you approve.";
-  if (finalErrors(verdict).length) return "Errors block approval.";
+  if (whyNotOverride(verdict)) return "Errors block approval.";
   return "Correct the gait, or press Approve to override the errors with a reason.";
 }
 
@@ -144,8 +141,8 @@ function whyNotCheck({ view, pending }) {
 function whyNotApprove({ view, pending, seenWarnings }) {
   if (!view?.verdict || pending.length) return "Check this version of the gait first.";
   if (view.approval) return `${view.approval.by} has already approved this gait.`;
-  const final = rulesOf(finalErrors(view.verdict));
-  if (final.length) return `The check failed. These errors cannot be overridden: ${ruleNames(final)}.`;
+  const reason = whyNotOverride(view.verdict);
+  if (reason) return reason;
   if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash)
     return "There are warnings. Read each warning, then tick “I have seen …”.";
   return null;
@@ -161,7 +158,7 @@ function warningTick(store) {
   );
   const show = ({ view, seenWarnings }) => {
     const warnings = warningsOf(view?.verdict);
-    element.hidden = !warnings.length || finalErrors(view.verdict).length > 0 || Boolean(view.approval);
+    element.hidden = !warnings.length || Boolean(view.approval || whyNotOverride(view.verdict));
     box.checked = seenWarnings !== undefined && seenWarnings === view?.verdict?.hash;
     count.textContent =
       warnings.length === 1 ? "I have seen this warning" : `I have seen these ${warnings.length} warnings`;

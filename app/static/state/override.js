@@ -13,10 +13,21 @@ const MOST_REASON = 300;
 export const errorsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) => severity === "error");
 
 /** The rules of findings, each once. @param {Finding[]} findings */
-export const rulesOf = (findings) => [...new Set(findings.map(({ rule }) => rule))];
+const rulesOf = (findings) => [...new Set(findings.map(({ rule }) => rule))];
 
 /** Rules for people, as a list in a sentence. @param {string[]} rules */
 export const ruleNames = (rules) => rules.map((rule) => lowered(ruleName(rule))).join(", ");
+
+/**
+ * Why nobody may approve in spite of a verdict's errors, in a sentence; null where a person may.
+ * @param {{findings: Finding[]}|null|undefined} verdict
+ */
+export function whyNotOverride(verdict) {
+  const final = rulesOf(errorsOf(verdict).filter(({ overridable }) => !overridable));
+  return final.length
+    ? `The check failed. Errors of these rules cannot be overridden: ${ruleNames(final)}.`
+    : null;
+}
 
 /**
  * What an override says, in a line.

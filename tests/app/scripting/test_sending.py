@@ -57,8 +57,8 @@ def test_errors_are_overridden_with_a_reason_alone(tmp_path: Path) -> None:
     with pytest.raises(ff.InputError, match="No error stands that could be overridden"):
         ff.send(BOW, to="emulator", by="Ada", data=tmp_path, override="It walked.")
     far = BOW.copy()
-    far[1] = 0.03
-    with pytest.raises(ff.InputError, match="Errors of the rule “stroke” cannot be overridden"):
+    far[1] = 0.021
+    with pytest.raises(ff.InputError, match="Errors of the rule “(stroke|deafness)” cannot be overridden"):
         ff.send(far, to="emulator", by="Ada", data=tmp_path, override="It walked.")
     assert not list(tmp_path.iterdir())
     run = ff.send(walk, to="emulator", by="Ada", data=tmp_path, override="It walked.")

@@ -61,4 +61,3 @@ def test_errors_are_overridden_by_keyboard_and_the_page_shows_it_as_long_as_it_s
         bound.press("Enter")
         expect(page.get_by_text(re.compile("the gait changed .*, so it is no longer", re.I))).to_be_visible()
         expect(note).to_have_count(0)
-

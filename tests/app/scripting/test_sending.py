@@ -58,7 +58,7 @@ def test_errors_are_overridden_with_a_reason_alone(tmp_path: Path) -> None:
         ff.send(BOW, to="emulator", by="Ada", data=tmp_path, override="It walked.")
     far = BOW.copy()
     far[1] = 0.021
-    with pytest.raises(ff.InputError, match="Errors of the rule “(stroke|deafness)” cannot be overridden"):
+    with pytest.raises(ff.InputError, match=r"Errors of the rule “(stroke|deafness)” cannot be overridden"):
         ff.send(far, to="emulator", by="Ada", data=tmp_path, override="It walked.")
     assert not list(tmp_path.iterdir())
     run = ff.send(walk, to="emulator", by="Ada", data=tmp_path, override="It walked.")

@@ -42,7 +42,7 @@ def parts(gait_id: str = GAIT) -> tuple[CheckedPlan, SimulationProblem]:
 def simulated(gait_id: str = GAIT, **other: Any) -> Verdict:
     """The verdict with a simulation that leans onto foot 4, some of its figures otherwise."""
     plan, problem = parts(gait_id)
-    rocks = {"max_tilt": LEAN, "max_tilt_time": 6.0, "swing_load": ONTO_FOOT_4}
+    rocks: dict[str, Any] = {"max_tilt": LEAN, "max_tilt_time": 6.0, "swing_load": ONTO_FOOT_4}
     figures = replace(report(problem, followed(problem)), **rocks | other)
     return check_plan(plan, Simulated(figures, problem, "key"))
 

@@ -11,7 +11,8 @@ from app.documents.gait_json import sent_hash
 from app.plans.planned_part import PlannedPart
 from app.plans.verified_result import VerifiedResult
 from core.arrays import Floats
-from core.checks.checked_plan import checked_plan
+from core.checks.beyond_range import beyond_range_plan
+from core.checks.checked_plan import Beyond, checked_plan
 from core.checks.made_plan import MadePlan, is_made, made_plan, other_motion_words
 from core.checks.rules import check_plan
 from core.checks.simulation import Simulated
@@ -72,6 +73,8 @@ class Plan:
         made_of: hash of the document that it was made of; None where it is of none.
         poses: of a gait for the robot's clock; adapted ones are not confirmed.
         infeasible: sentences on why a search found no poses; empty where none has failed.
+        clipped: (n, legs, 3) how far each stroke of a recorded motion was beyond the motors' range and was
+            clipped, m; None where strokes are left as they are.
     """
 
     source: PlanSource
@@ -88,11 +91,17 @@ class Plan:
     made_of: str | None = None
     poses: PoseGait | None = None
     infeasible: tuple[str, ...] = ()
+    clipped: Floats | None = None
 
     @property
     def is_draft(self) -> bool:
         """Whether it is only drawn, so that it is never sent."""
         return self.source in (PlanSource.DRAFT, PlanSource.ITERATE, PlanSource.ADAPTED)
+
+    @property
+    def is_out_of_range(self) -> bool:
+        """Whether there is a motion that the motors cannot make."""
+        return self.trajectory is not None and isinstance(self.refusal, UnreachableError)
 
     @cached_property
     def moved(self) -> Trajectory | None:
@@ -222,6 +231,11 @@ def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
     return replace(sent, note=f"{sent.note} {other_motion_words(sent.made)}".strip())
 
 
+def sending_of(gait: Gait) -> tuple[float, float | None]:
+    """Tolerance, m, and stop bound, s, by which waypoints are merged and cut; poses stay as they are."""
+    return (0.0, None) if gait.poses is not None else (gait.options.merge, gait.options.stop_bound)
+
+
 def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Verdict:
     """Checks a plan by every rule.
 
@@ -233,11 +247,15 @@ def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Ve
     Raises:
         CheckError: there is nothing to check.
     """
-    if plan.trajectory is None or plan.way is None:
+    way, beyond = plan.way, Beyond(plan.clipped)
+    if plan.trajectory is not None and plan.is_out_of_range:
+        whole = beyond_range_plan(plan.model, plan.trajectory, *sending_of(gait))
+        way, beyond = whole.way, Beyond(plan.clipped, whole.unreached)
+    if plan.trajectory is None or way is None:
         sentence = "There is no plan to check." if plan.refusal is None else plan.refusal.sentence
         raise CheckError(sentence, "plan")
     is_fresh = plan.made_of is None or plan.made_of == sent_hash(gait)
     checked = checked_plan(
-        gait, plan.model, plan.trajectory, plan.way, is_draft=plan.is_draft, is_fresh=is_fresh
+        gait, plan.model, plan.trajectory, way, is_draft=plan.is_draft, is_fresh=is_fresh, beyond=beyond
     )
     return check_plan(checked, simulated)

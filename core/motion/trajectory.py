@@ -73,16 +73,25 @@ class Trajectory:
         """The robot's frame at each knot."""
         return actuator_plane_pose(model, self.body_world, self.heading)
 
-    def strokes(self, model: RobotModel) -> Floats:
-        """(n, legs, 3) motor strokes, m.
+    def require_feet(self, model: RobotModel) -> None:
+        """The motion is of a robot with as many feet.
 
         Raises:
-            UnreachableError: a foot lies outside the workspace.
+            InputError: it is not.
         """
         if self.leg_count != model.leg_count:
             raise InputError(
                 f"The trajectory has {self.leg_count} feet, the robot {model.leg_count}.", "trajectory"
             )
+
+    def strokes(self, model: RobotModel) -> Floats:
+        """(n, legs, 3) motor strokes, m.
+
+        Raises:
+            UnreachableError: a foot lies outside the workspace.
+            InputError: the robot has another number of feet.
+        """
+        self.require_feet(model)
         return walker_strokes(model, self.feet_world, self.pose(model))
 
 

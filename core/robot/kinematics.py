@@ -5,6 +5,7 @@ Every function is pure and works over any leading axes: time first, then leg, th
 """
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -34,6 +35,10 @@ class UnreachableError(InfeasibleError):
         self.sample = sample
         self.nearest_module = nearest_module
         self.distance = distance
+
+    def with_sentence(self, sentence: str) -> Self:
+        """The same refusal in other words."""
+        return type(self)(sentence, self.foot, self.sample, self.nearest_module, self.distance)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,20 @@
+"""Motions that leave the motors' range, such as the published ones do."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core.gait.gait import motion_problem
+from core.library.library import library
+from core.motion.trajectory import Trajectory
+from core.robot.model import load_robot
+from solver_jobs import solve_live
+
+MODEL = load_robot("deltawalker")
+
+
+def lowered(by: float) -> Trajectory:
+    """The library's walk with its body lower by so many m, which asks for strokes below the motors' range."""
+    motion = solve_live(motion_problem(library()["walk"].gait, MODEL)).trajectory
+    down = np.array([0.0, 0.0, -by])
+    return replace(motion, body_world=motion.body_world + down, contact_forces=None)

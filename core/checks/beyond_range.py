@@ -41,7 +41,7 @@ def beyond_range_plan(
     Raises:
         InputError: the robot has another number of feet, or tolerance or bound is no usable number.
     """
-    trajectory.require_feet(model)
+    trajectory.require_feet_of(model)
     pose = trajectory.pose(model)
     strokes = free_strokes(model, trajectory.feet_world, pose)
     unreached = np.asarray(np.isnan(strokes).any(axis=-1))

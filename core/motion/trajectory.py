@@ -73,7 +73,16 @@ class Trajectory:
         """The robot's frame at each knot."""
         return actuator_plane_pose(model, self.body_world, self.heading)
 
-    def require_feet(self, model: RobotModel) -> None:
+    def strokes(self, model: RobotModel) -> Floats:
+        """(n, legs, 3) motor strokes, m.
+
+        Raises:
+            UnreachableError: a foot lies outside the workspace.
+        """
+        self.require_feet_of(model)
+        return walker_strokes(model, self.feet_world, self.pose(model))
+
+    def require_feet_of(self, model: RobotModel) -> None:
         """The motion is of a robot with as many feet.
 
         Raises:
@@ -83,16 +92,6 @@ class Trajectory:
             raise InputError(
                 f"The trajectory has {self.leg_count} feet, the robot {model.leg_count}.", "trajectory"
             )
-
-    def strokes(self, model: RobotModel) -> Floats:
-        """(n, legs, 3) motor strokes, m.
-
-        Raises:
-            UnreachableError: a foot lies outside the workspace.
-            InputError: the robot has another number of feet.
-        """
-        self.require_feet(model)
-        return walker_strokes(model, self.feet_world, self.pose(model))
 
 
 def difference_velocities(times: Floats, positions: Floats) -> Floats:

@@ -55,7 +55,7 @@ def clipped_motion(model: RobotModel, trajectory: Trajectory) -> ClippedMotion:
         InputError: the robot has another number of feet, a stroke is more than `MOST_CLIPPED` beyond its
             range, or no rod is long enough for a foot.
     """
-    trajectory.require_feet(model)
+    trajectory.require_feet_of(model)
     pose = trajectory.pose(model)
     kept = clipped_strokes(model, free_strokes(model, trajectory.feet_world, pose))
     if not kept.beyond.any():

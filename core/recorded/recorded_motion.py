@@ -11,6 +11,7 @@ from core.gait.recording import AS_RECORDED, Recording, RecordingFit, RecordingF
 from core.motion.contact_timeline import SAME_INTERVAL, ContactTimeline
 from core.motion.trajectory import Trajectory
 from core.motion.within_stroke import clipped_motion, clipped_words
+from core.recorded.frame_offsets import raised_motion
 from core.recorded.recorded_gait import robot_with
 from core.recorded.waypoint_motion import motion_of_waypoints
 from core.robot.model import RobotModel, load_robot
@@ -18,7 +19,6 @@ from core.wire.trajectory_csv import (
     TrajectoryFile,
     parse_trajectory_csv,
     standard_layout,
-    standing_feet,
 )
 from core.wire.waypoints import parse_waypoint_csv, waypoint_legs
 
@@ -57,9 +57,7 @@ def recorded_motion(recording: Recording, model: RobotModel | None = None) -> Re
     if recording.fit == AS_RECORDED:
         return RecordedMotion(read)
     fit, motion = recording.fit, read.trajectory
-    raised = _raised(motion, fit)
-    if fit.feet and not read.has_companion:
-        raised = replace(raised, contact=standing_feet(raised.feet_world))
+    raised = raised_motion(motion, fit.body, fit.feet) if fit.body or fit.feet else motion
     fitted = _scaled(raised, fit.scale)
     if fit.within_stroke is None:
         return RecordedMotion(replace(read, trajectory=fitted))
@@ -77,18 +75,6 @@ def fit_words(fit: RecordingFit, clipped: Floats | None) -> str:
     scaled = f"scaled to {fit.scale * 100:.0f} %" if fit.scale != 1.0 else ""
     cut = "" if clipped is None or not clipped.any() else f"strokes clipped {clipped_words(clipped)}"
     return ", ".join(filter(None, (*raised, scaled, cut)))
-
-
-def _raised(motion: Trajectory, fit: RecordingFit) -> Trajectory:
-    if not (fit.body or fit.feet):
-        return motion
-    up = np.array([0.0, 0.0, 1.0])
-    return replace(
-        motion,
-        body_world=motion.body_world + fit.body * up,
-        feet_world=motion.feet_world + fit.feet * up,
-        contact_forces=None,
-    )
 
 
 def _scaled(motion: Trajectory, scale: float) -> Trajectory:

@@ -10,6 +10,7 @@ from core.gait.gait import Gait
 from core.gait.recording import LEAST_SCALE, MOST_RAISED, Recording, RecordingFit, WithinStroke
 from core.motion.trajectory import Trajectory
 from core.motion.within_stroke import beyond_range, clipped_words
+from core.recorded.frame_offsets import FrameOffsets, frame_offsets
 from core.recorded.recorded_gait import gait_of_motion
 from core.recorded.recorded_motion import recorded_motion
 from core.robot.model import RobotModel, load_robot
@@ -56,15 +57,32 @@ def refitted(gait: Gait, fit: RecordingFit) -> Gait:
 def ways_within(gait: Gait, recording: Recording) -> Iterator[WayWithin]:
     """What keeps a recorded motion within the motors' range, the least change first; each works by itself.
 
+    Heights in another frame come first of all, in range or not.
+
     Args:
         gait: the gait.
-        recording: its recorded motion, which leaves the range.
+        recording: its recorded motion.
     """
     model = load_robot(gait.robot)
     motion = recorded_motion(replace(recording, fit=replace(recording.fit, within_stroke=None)), model)
+    offsets = frame_offsets(model, motion.trajectory)
+    if offsets is not None:
+        yield _in_own_frame(gait, recording, offsets)
     yield from _clipped(gait, recording, model)
-    yield from _raised(gait, recording, model, motion.trajectory)
-    yield from _scaled(gait, recording, model, motion.trajectory)
+    if beyond_range(model, motion.trajectory).any():
+        if offsets is None:
+            yield from _raised(gait, recording, model, motion.trajectory)
+        yield from _scaled(gait, recording, model, motion.trajectory)
+
+
+def _in_own_frame(gait: Gait, recording: Recording, offsets: FrameOffsets) -> WayWithin:
+    fit = recording.fit
+    changed = replace(fit, body=fit.body + offsets.body, feet=fit.feet + offsets.feet)
+    label = "Correct the heights"
+    sentence = (
+        f"{offsets.sentence} The motion stays as recorded; only its heights are counted from elsewhere."
+    )
+    return WayWithin(label, sentence, refitted(gait, changed))
 
 
 def _clipped(gait: Gait, recording: Recording, model: RobotModel) -> Iterator[WayWithin]:
@@ -112,7 +130,7 @@ def _scaled(gait: Gait, recording: Recording, model: RobotModel, motion: Traject
             return
         moved = recorded_motion(replace(recording, fit=replace(fit, within_stroke=None)), model).trajectory
         if not beyond_range(model, moved).any():
-            rises = [float(m.feet_world[..., 2].max()) * 1000 for m in (motion, moved)]
+            rises = [float(np.ptp(m.feet_world[..., 2])) * 1000 for m in (motion, moved)]
             ways = [
                 float(np.linalg.norm(np.diff(m.body_world[[0, -1], :2], axis=0))) for m in (motion, moved)
             ]

@@ -207,10 +207,12 @@ def _assemble(
 
 
 def standing_feet(feet: Floats) -> Bools:
-    """Which feet stand: those within the standing height that keep still towards a neighbouring knot.
+    """Contact from positions: a foot stands where it lies low and keeps still towards a neighbouring knot.
+
+    Both are judged by `STANDING_HEIGHT`.
 
     Args:
-        feet: (n, legs, 3) platform centres, m.
+        feet: (n, legs, 3) platform centres in the world, m.
 
     Returns:
         (n, legs).

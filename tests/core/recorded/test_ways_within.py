@@ -1,4 +1,4 @@
-"""A recording beyond the motors' range can be kept in several ways, each of which works and says its price."""
+"""A recording beyond the motors' range can be kept in several ways; each works and says its price."""
 
 from __future__ import annotations
 

@@ -11,9 +11,10 @@ from app.cli.commands_gait import optimise
 from app.cli.common.argument_types import number, one_of, words_of
 from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show, write
-from app.cli.common.within_stroke import add_within_stroke, clipped_content, require_within
+from app.cli.common.within_stroke import add_within_stroke, require_within
 from app.cli.gait_motion import poses_of
 from app.cli.gait_options import Method
+from app.common.clipped import clipped_content
 from app.documents.gait_json import gait_content, parse_gait
 from app.documents.trajectory_json import trajectory_content
 from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, export

@@ -10,7 +10,8 @@ from pathlib import Path
 from app.cli.common.argument_types import add_robot, number
 from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, NOT_FIT, note, show, verdict_lines, write
-from app.cli.common.within_stroke import add_within_stroke, clipped_content, kept_within
+from app.cli.common.within_stroke import add_within_stroke, kept_within
+from app.common.clipped import clipped_content
 from app.export.trajectory_files import read_trajectory, write_waypoints
 from app.export.way_files import is_way_file, read_way_file
 from app.gaits.verdict_views import verdict_view

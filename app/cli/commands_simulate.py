@@ -13,8 +13,9 @@ from app.cli.commands_plan import ROBOT, add_way_options
 from app.cli.common.argument_types import add_robot, one_of, whole, words_of
 from app.cli.common.command import set_command
 from app.cli.common.output import NOT_FIT, end_on_signals, note, show, tally
-from app.cli.common.within_stroke import add_within_stroke, clipped_content, kept_within
+from app.cli.common.within_stroke import add_within_stroke, kept_within
 from app.cli.gait_motion import checked_gait
+from app.common.clipped import clipped_content
 from app.common.json import Json
 from app.common.signals import Interrupted
 from app.export.trajectory_files import read_trajectory

@@ -25,12 +25,15 @@ from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.motion_in_move import motion_along
 from core.pose_gaits.pose_gait import PoseGait
-from core.robot.kinematics import UnreachableError, free_strokes
+from core.recorded.frame_offsets import frame_offsets
+from core.robot.kinematics import REMEDY, UnreachableError, free_strokes
 from core.robot.model import RobotModel
 from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus
 
+KEEPS = "The step Design has ways to keep the recording."
+"""What helps where a recorded motion leaves the motors' range."""
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
 """One waypoint a sample."""
 
@@ -102,6 +105,16 @@ class Plan:
     def is_out_of_range(self) -> bool:
         """Whether there is a motion that the motors cannot make."""
         return self.trajectory is not None and isinstance(self.refusal, UnreachableError)
+
+    @cached_property
+    def misfit(self) -> str | None:
+        """Why a recorded motion does not fit the robot, or seems to be in another frame; else None."""
+        if self.source is not PlanSource.RECORDED or self.trajectory is None:
+            return None
+        offsets = frame_offsets(self.model, self.trajectory)
+        if offsets is not None:
+            return offsets.sentence
+        return None if self.refusal is None else self.refusal.sentence
 
     @cached_property
     def moved(self) -> Trajectory | None:
@@ -223,12 +236,20 @@ def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
     try:
         way = plan_waypoints(plan.model, plan.trajectory, options.merge, options.stop_bound)
     except UnreachableError as unreachable:
-        draft = plan.source is PlanSource.DRAFT
-        return replace(plan, refusal=InputError(plan.note, "timeline") if draft else unreachable)
+        return replace(plan, refusal=_refusal(plan, unreachable))
     sent = replace(plan, way=way)
     if sent.makes_planned or sent.made is None:
         return sent
     return replace(sent, note=f"{sent.note} {other_motion_words(sent.made)}".strip())
+
+
+def _refusal(plan: Plan, unreachable: UnreachableError) -> FootfallError:
+    """Why nothing can be sent, with what helps a plan of this kind."""
+    if plan.source is PlanSource.DRAFT:
+        return InputError(plan.note, "timeline")
+    if plan.source is PlanSource.RECORDED:
+        return unreachable.with_sentence(unreachable.sentence.replace(REMEDY, KEEPS))
+    return unreachable
 
 
 def sending_of(gait: Gait) -> tuple[float, float | None]:

@@ -29,11 +29,15 @@ class WayWithin:
         label: what is done, in a few words.
         sentence: what it changes.
         gait: the changed gait.
+        caution: what it leaves to be done; empty where nothing is.
+        kind: what kind of change it is.
     """
 
     label: str
     sentence: str
     gait: Gait
+    caution: str = ""
+    kind: str = "recorded"
 
 
 def refitted(gait: Gait, fit: RecordingFit) -> Gait:
@@ -67,7 +71,7 @@ def ways_within(gait: Gait, recording: Recording) -> Iterator[WayWithin]:
     motion = recorded_motion(replace(recording, fit=replace(recording.fit, within_stroke=None)), model)
     offsets = frame_offsets(model, motion.trajectory)
     if offsets is not None:
-        yield _in_own_frame(gait, recording, offsets)
+        yield _in_own_frame(gait, recording, model, offsets)
     yield from _clipped(gait, recording, model)
     if beyond_range(model, motion.trajectory).any():
         if offsets is None:
@@ -75,14 +79,17 @@ def ways_within(gait: Gait, recording: Recording) -> Iterator[WayWithin]:
         yield from _scaled(gait, recording, model, motion.trajectory)
 
 
-def _in_own_frame(gait: Gait, recording: Recording, offsets: FrameOffsets) -> WayWithin:
+def _in_own_frame(gait: Gait, recording: Recording, model: RobotModel, offsets: FrameOffsets) -> WayWithin:
     fit = recording.fit
     changed = replace(fit, body=fit.body + offsets.body, feet=fit.feet + offsets.feet)
     label = "Correct the heights"
     sentence = (
         f"{offsets.sentence} The motion stays as recorded; only its heights are counted from elsewhere."
     )
-    return WayWithin(label, sentence, refitted(gait, changed))
+    motion = recorded_motion(replace(recording, fit=changed), model).trajectory
+    is_left = bool(beyond_range(model, motion).any())
+    caution = "It is still beyond the motors' range then. What keeps it within comes next." if is_left else ""
+    return WayWithin(label, sentence, refitted(gait, changed), caution)
 
 
 def _clipped(gait: Gait, recording: Recording, model: RobotModel) -> Iterator[WayWithin]:

@@ -15,6 +15,9 @@ from core.robot.leg import foot_from_strokes, strokes_from_foot
 from core.robot.model import RobotModel, StrokeLimits
 from core.robot.nearest_reachable import nearest_reachable
 
+REMEDY = "Shorten the step or change the body's height."
+"""What helps where a foot cannot go where it was asked."""
+
 
 class UnreachableError(InfeasibleError):
     """A foot cannot go where it was asked.
@@ -161,7 +164,7 @@ def _raise_unreachable(model: RobotModel, feet_module: Floats, feet_world: Float
     x, y, _ = feet_world[first]
     raise UnreachableError(
         f"Foot {foot + 1} cannot reach ({x:.3f}, {y:.3f}) m at sample {sample + 1}: {distance * 1000:.1f} mm "
-        "outside its workspace. Shorten the step or change the body's height.",
+        f"outside its workspace. {REMEDY}",
         foot,
         sample,
         nearest,

@@ -4,12 +4,11 @@ from argparse import ArgumentParser, Namespace
 
 from app.cli.common.argument_types import one_of, words_of
 from app.cli.common.output import note
-from app.common.json import Json
 from core.arrays import Floats
 from core.errors import FootfallError
 from core.gait.recording import WithinStroke
 from core.motion.trajectory import Trajectory
-from core.motion.within_stroke import clipped_motion, clipped_places, clipped_words
+from core.motion.within_stroke import clipped_motion, clipped_words
 from core.robot.kinematics import UnreachableError
 from core.robot.model import RobotModel
 
@@ -58,13 +57,3 @@ def require_within(model: RobotModel, trajectory: Trajectory) -> None:
         else:
             help_words = f"Or keep its strokes within the range with {OPTION}: {clipped_words(clipped)}."
         raise refusal.with_sentence(f"{refusal.sentence} {help_words}") from refusal
-
-
-def clipped_content(clipped: Floats | None) -> list[Json]:
-    """Foot and sample, from 0, where strokes were clipped, and the largest of the foot's three in mm."""
-    if clipped is None:
-        return []
-    return [
-        {"foot": place.foot, "sample": place.sample, "mm": round(place.by * 1000, 4)}
-        for place in clipped_places(clipped)
-    ]

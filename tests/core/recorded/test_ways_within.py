@@ -4,24 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from app.export.import_gait import gait_of_recording
 from core.errors import InputError
 from core.gait.gait import Gait
-from core.gait.recording import Recording, RecordingFit, RecordingForm, WithinStroke
+from core.gait.recording import Recording, RecordingFit, WithinStroke
 from core.library.library import library
 from core.motion.within_stroke import beyond_range
 from core.recorded.recorded_motion import gait_motion
 from core.recorded.ways_within import refitted, ways_within
-from core.wire.trajectory_csv import format_companion, format_trajectory_csv
-from tests.support.beyond_range import MODEL, lowered
-
-
-def imported(by: float) -> Gait:
-    """The library's walk as a recording, its body lower by so many m."""
-    motion = lowered(by)
-    text = format_trajectory_csv(motion)
-    recording = Recording("walk.csv", RecordingForm.TRAJECTORY, text, format_companion(motion, text))
-    return gait_of_recording(recording, "Walk").gait
+from tests.support.beyond_range import MODEL, recorded_gait
 
 
 def recording_of(gait: Gait) -> Recording:
@@ -30,7 +20,7 @@ def recording_of(gait: Gait) -> Recording:
 
 
 def test_every_way_is_within_the_range_and_keeps_the_file() -> None:
-    gait = imported(0.002)
+    gait = recorded_gait(0.002)
     ways = list(ways_within(gait, recording_of(gait)))
     assert [way.label.split()[0] for way in ways] == ["Keep", "Raise", "Scale"]
     for way in ways:
@@ -43,14 +33,14 @@ def test_every_way_is_within_the_range_and_keeps_the_file() -> None:
 
 
 def test_a_scaled_motion_asks_for_the_scaled_step() -> None:
-    gait = imported(0.002)
+    gait = recorded_gait(0.002)
     scaled = list(ways_within(gait, recording_of(gait)))[-1].gait
     scale = recording_of(scaled).fit.scale
     assert scaled.step == pytest.approx([scale * value for value in gait.step], abs=1e-9)
 
 
 def test_the_body_is_raised_by_no_more_than_is_needed() -> None:
-    gait = imported(0.002)
+    gait = recorded_gait(0.002)
     raised = list(ways_within(gait, recording_of(gait)))[1]
     fit = recording_of(raised.gait).fit
     assert 0 < fit.body <= 0.002
@@ -59,7 +49,7 @@ def test_the_body_is_raised_by_no_more_than_is_needed() -> None:
 
 
 def test_beyond_five_millimetres_only_the_body_and_the_scale_help() -> None:
-    gait = imported(0.008)
+    gait = recorded_gait(0.008)
     assert [way.label.split()[0] for way in ways_within(gait, recording_of(gait))] == ["Raise"]
 
 

@@ -79,11 +79,19 @@ class Trajectory:
         Raises:
             UnreachableError: a foot lies outside the workspace.
         """
+        self.require_feet_of(model)
+        return walker_strokes(model, self.feet_world, self.pose(model))
+
+    def require_feet_of(self, model: RobotModel) -> None:
+        """The motion is of a robot with as many feet.
+
+        Raises:
+            InputError: it is not.
+        """
         if self.leg_count != model.leg_count:
             raise InputError(
                 f"The trajectory has {self.leg_count} feet, the robot {model.leg_count}.", "trajectory"
             )
-        return walker_strokes(model, self.feet_world, self.pose(model))
 
 
 def difference_velocities(times: Floats, positions: Floats) -> Floats:

@@ -200,14 +200,23 @@ def _assemble(
         body_velocity = difference_velocities(times, body)
         feet_velocity = difference_velocities(times, feet)
         assumptions.append("Velocities are missing; they are differences of the positions.")
-    contact = np.array(companion["contact"], dtype=np.bool_) if companion else _standing(feet)
+    contact = np.array(companion["contact"], dtype=np.bool_) if companion else standing_feet(feet)
     trajectory = Trajectory(times, body, heading, feet, contact, body_velocity, feet_velocity)
     robot = None if companion is None or companion.get("robot") is None else str(companion["robot"])
     return TrajectoryFile(trajectory, tuple(assumptions), layout, companion is not None, robot)
 
 
-def _standing(feet: Floats) -> Bools:
-    """A foot stands where it lies within the standing height and keeps still towards a neighbouring knot."""
+def standing_feet(feet: Floats) -> Bools:
+    """Contact from positions: a foot stands where it lies low and keeps still towards a neighbouring knot.
+
+    Both are judged by `STANDING_HEIGHT`.
+
+    Args:
+        feet: (n, legs, 3) platform centres in the world, m.
+
+    Returns:
+        (n, legs).
+    """
     low = np.abs(feet[..., 2]) <= STANDING_HEIGHT
     still = np.linalg.norm(np.diff(feet, axis=0), axis=-1) <= STANDING_HEIGHT
     padded = np.concatenate([still[:1] & False, still, still[:1] & False])

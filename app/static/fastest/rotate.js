@@ -17,8 +17,8 @@ const MOST_CYCLES = 20;
 const MOST_A_CYCLE = 90;
 const [FIRST_DEGREES, FIRST_CYCLES] = [45, 3];
 
-/** What a turn is called: `Rotate 45°`, `Rotate 45° to the right`. */
-const titleOf = (degrees) => `Rotate ${Math.abs(degrees)}°${degrees < 0 ? " to the right" : ""}`;
+/** What a turn is called: `Rotate 45°`, `Rotate 45° right`. */
+const titleOf = (degrees) => `Rotate ${Math.abs(degrees)}°${degrees < 0 ? " right" : ""}`;
 
 /** What each cycle does, in a sentence. */
 const cycleText = (degrees, cycles) =>

@@ -83,7 +83,7 @@ def test_a_rotation_is_made_by_its_degrees_and_solved(page: Page) -> None:
     turn.fill("-40")
     expect(dialog.get_by_role("status")).to_have_text(re.compile("turns 20.0° to the right"))
     dialog.get_by_role("button", name="Create").click()
-    expect(page.get_by_label("Gait name")).to_have_value("Rotate 40° to the right")
+    expect(page.get_by_label("Gait name")).to_have_value("Rotate 40° right")
     expect(page.get_by_label("Foot order")).to_have_value("1 2 3 4")
     expect(page.get_by_role("spinbutton", name="Iterations")).to_have_value("2")
     line = page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Rotate 40°"))

@@ -61,7 +61,8 @@ def test_a_way_out_that_was_simulated_needs_no_other_simulation(page: Page) -> N
     expect(first).to_contain_text("in the simulation.")
     first.get_by_role("button").click()
     expect(card(page)).to_be_hidden()
-    expect(page.get_by_role("button", name="Check", exact=True).and_(page.locator(".primary"))).to_be_visible()
+    check = page.get_by_role("button", name="Check", exact=True).and_(page.locator(".primary"))
+    expect(check).to_be_visible()
 
 
 def test_heights_in_another_frame_are_asked_about(page: Page) -> None:

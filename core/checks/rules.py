@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from core.checks.arms import check_arms, check_arms_of_waypoints
 from core.checks.balance import check_balance, check_standing_balance
-from core.checks.checked_plan import CheckedPlan
+from core.checks.checked_plan import WITHIN, Beyond, CheckedPlan
 from core.checks.coupling import check_made, check_made_waypoints
 from core.checks.document import check_document, check_origin
 from core.checks.ground import check_clearance, check_contact, check_slip
@@ -42,7 +42,7 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
     """
     kept = None if plan.way is None else plan.way.kept
     outcomes = [
-        check_strokes(plan.model, plan.knots, plan.trajectory.times),
+        check_strokes(plan.model, plan.knots, plan.trajectory.times, plan.beyond),
         check_deafness(plan.waypoints, kept),
         check_durations(plan.waypoints, kept),
         *_motion_rules(plan, is_simulated=simulated is not None),
@@ -76,10 +76,16 @@ def _motion_rules(plan: CheckedPlan, *, is_simulated: bool) -> list[Outcome]:
     return [check_balance(plan), check_contact(plan), check_clearance(plan), check_slip(plan)]
 
 
-def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
-    """What waypoints alone can show: range, durations, deafness; by kinematics balance, shoes, arms."""
+def check_waypoints(model: RobotModel, waypoints: Waypoints, beyond: Beyond = WITHIN) -> Verdict:
+    """What waypoints alone can show: range, durations, deafness; by kinematics balance, shoes, arms.
+
+    Args:
+        model: the robot.
+        waypoints: what would be sent.
+        beyond: where strokes left the range before they were clipped.
+    """
     outcomes = [
-        check_strokes(model, waypoints),
+        check_strokes(model, waypoints, beyond=beyond),
         check_deafness(waypoints),
         check_durations(waypoints),
         *_standing_rules(model, waypoints),

@@ -127,12 +127,16 @@ function approvalBox({ approval }) {
   );
 }
 
+/** Whether the motors cannot make the motion; the check then lists everything that is wrong with it. */
+const isBeyondRange = ({ source, refusal, times }) =>
+  Boolean(refusal) && times.length > 0 && ["recorded", "manual"].includes(source);
+
 function whyNotCheck({ view, pending }) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The studio is still saving your last edit.";
   if (view.plan?.live?.status === "infeasible")
     return "There is no motion to check. The Design step shows what is wrong and suggests changes.";
-  if (!view.plan || view.plan.refusal) {
+  if (!view.plan || (view.plan.refusal && !isBeyondRange(view.plan))) {
     return view.plan?.refusal?.sentence ?? "There is no plan to check. Press Optimise first.";
   }
   return null;

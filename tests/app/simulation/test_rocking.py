@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.cli.gait_motion import sending_of, trajectory_of
+from app.cli.gait_motion import trajectory_of
+from app.plans.plan import sending_of
 from app.simulation.problem import way_problem
 from core.checks.checked_plan import CheckedPlan, checked_plan
 from core.checks.rocking import SIMULATE

@@ -9,7 +9,8 @@ from functools import cache
 
 import pytest
 
-from app.cli.gait_motion import sending_of, trajectory_of
+from app.cli.gait_motion import trajectory_of
+from app.plans.plan import sending_of
 from app.simulation.problem import way_problem
 from core.checks.checked_plan import checked_plan
 from core.checks.made_plan import made_plan

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
+import numpy as np
+
 from app.common.json import Json
 from app.gaits.live_plans import LivePlans
 from app.plans.plan import Plan, PlanSource
@@ -18,7 +20,7 @@ from core.errors import FootfallError, SimulationCancelledError
 from core.findings import Severity
 from core.gait.gait import Gait
 from core.patterns.problem import PatternProblem, PatternResult
-from core.physics.findings import physics_outcomes
+from core.physics.findings import ROCKING_RULES, physics_outcomes
 from core.physics.masses import default_physics
 from core.physics.metrics import report
 from core.physics.problem import SimulationProblem
@@ -283,7 +285,9 @@ class RemedyRun:
         else:
             findings = [one for outcome in physics_outcomes(figures, problem) for one in outcome.findings]
             errors = [one.sentence for one in findings if one.severity is Severity.ERROR]
-            offer.tried = Tried(not errors, errors[0] if errors else "")
+            rocks = any(one.rule in ROCKING_RULES for one in findings)
+            leans = f"It leans by up to {np.degrees(figures.max_tilt):.1f}° and does not fall."
+            offer.tried = Tried(not errors, errors[0] if errors else leans if rocks else "")
 
     def _content(self) -> Json:
         offers = self._shown()

@@ -40,7 +40,7 @@ class Tried:
 
     Args:
         walks: None where the simulation gave no result.
-        sentence: why it does not walk, or why there is no result.
+        sentence: why it does not walk, how far it leans where it rocks, or why there is no result.
     """
 
     walks: bool | None

@@ -18,8 +18,8 @@ TILT_LIMIT = float(np.radians(2.0))
 SWING_LIMIT = 0.5
 """A foot that carries load for a larger part of a swing bears the robot that rocks onto it, or stays down;
 feet that are in the air have at most 0.13 by measurement, those that bear a robot 0.87 and more."""
-EDGE = 0.0001
-"""A plan whose centre of mass is no further inside the edge of its support has no reserve, m."""
+ROCKING_RULES = ("simulated_tilt", "simulated_swing")
+"""Rules that find a robot rocking onto a foot."""
 KNOTS_ABOUT = 1
 """Knots before and after a moment at which a plan is looked at too."""
 SLIP_LIMIT = 0.001
@@ -47,8 +47,8 @@ def physics_outcomes(report: SimulationReport, problem: SimulationProblem) -> tu
 
     Falling, tilting, load on a swinging foot, ending early and less than half of the way or turn are errors;
     slip, lost balance, less of the way or turn than asked, motors that fall behind and motors at their
-    force's limit are warnings, and so is rocking where the plan has no reserve. Samples are the plan's knots,
-    times the simulated robot's.
+    force's limit are warnings, and so is rocking where the plan has less reserve than the robot
+    needs. Samples are the plan's knots, times the simulated robot's.
 
     Args:
         report: of the run.
@@ -134,14 +134,18 @@ def rocking_words(report: SimulationReport, swinging: Bools) -> str:
 def _rocking(report: SimulationReport, problem: SimulationProblem, time: float) -> tuple[Severity, str]:
     """How bad it is that a robot rocks at a simulated time, and a sentence on it.
 
-    It is expected where the plan itself has no reserve. Elsewhere the robot does otherwise than planned.
+    It is expected where the plan has less reserve than the robot's own margin. Elsewhere the robot does
+    otherwise than planned.
     """
     plan, knot = problem.plan, int(_place(report, problem, time)["sample"])
     margins = stability_margins(plan.body_world[:, :2], plan.feet_world, plan.contact)
     about = margins[max(knot - KNOTS_ABOUT, 0) : knot + KNOTS_ABOUT + 1]
-    if not only_rocks(report, problem) or float(about.min()) > EDGE:
+    if not only_rocks(report, problem) or float(about.min()) > problem.model.margin:
         return Severity.ERROR, ""
-    return Severity.WARNING, " The plan has no reserve there, and the robot does not fall."
+    return (
+        Severity.WARNING,
+        " The plan has less reserve there than this robot needs, and the robot does not fall.",
+    )
 
 
 def _swing(report: SimulationReport, problem: SimulationProblem) -> Outcome:

@@ -16,6 +16,8 @@ function physicsWords({ kind, physics, caution }, isTrying) {
   if (physics.walks && caution && kind !== "no_margin") {
     return { text: `The robot walks in the simulation. ${caution}`, tone: "caution", title: null };
   }
+  if (physics.walks && physics.sentence)
+    return { text: `The robot walks in the simulation. ${physics.sentence}`, tone: "caution", title: null };
   if (physics.walks) return { text: "The robot walks in the simulation.", tone: "good", title: null };
   return { text: "The robot does not walk in the simulation.", tone: "caution", title: physics.sentence };
 }

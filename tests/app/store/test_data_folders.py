@@ -100,6 +100,8 @@ def test_it_reads_what_was_kept(opened: Opened, subject: str) -> None:
     now, kept = opened.now[subject], opened.kept[subject]
     if subject == "runs":  # one more was on when its program was killed
         now = {run: content for run, content in now.items() if run in kept}
+    if subject == "simulations":  # those of another gait with the same waypoints count now
+        now = {gait: content for gait, content in now.items() if gait in kept}
     assert now == kept
 
 

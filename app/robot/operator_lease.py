@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.lease import GONE_SECONDS, Holding, Lease, Person, policy, refusal
-from app.bridge.states import IN_RUN, LinkState, RobotState
+from app.bridge.states import IN_RUN, LinkState, MotorTestState, RobotState
 from app.common.json import Json
 from app.undo.history import SCRIPT, Author
 from core.errors import StateError
@@ -223,9 +223,12 @@ class OperatorLease:
             self._hold_on(holder)
 
     def _hold_on(self, holder: Person) -> None:
-        """The stated policy: on to the next pose with all feet down, and wait there."""
+        """The stated policy: on to the next pose with all feet down, and wait there; a motor test ends."""
+        test = self._bridge.snapshot.motor_test
         try:
-            if self._bridge.snapshot.robot is RobotState.MOVING:
+            if test is not None and test.state is MotorTestState.RUNNING:
+                self._bridge.cancel_test()
+            elif self._bridge.snapshot.robot is RobotState.MOVING:
                 self._bridge.pause(f"the studio, as {holder.title} is gone")
         except StateError as refused:  # the run ended meanwhile, or it is a reset, which ends by itself
             logger.info("Not paused although %s is gone: %s", holder.title, refused.sentence)

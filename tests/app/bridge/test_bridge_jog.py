@@ -186,6 +186,7 @@ WAYPOINT = encode_waypoint(np.full((4, 3), 0.005), 1.0)
 BY_KIND = {
     MessageKind.WAYPOINT: {WAYPOINT},
     MessageKind.JOG: {WAYPOINT},
+    MessageKind.TEST: {WAYPOINT, encode_stop(), encode_release()},
     MessageKind.RESET: {encode_reset()},
     MessageKind.CLEAR: {WAYPOINT, encode_release()},
 }

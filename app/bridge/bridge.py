@@ -271,13 +271,9 @@ class RobotBridge:
         """
         self._do(lambda now: self._machine.test_motors(model, by, now))
 
-    def cancel_test(self) -> None:
-        """Ends a motor test after the motor that is being tested.
-
-        Raises:
-            StateError: none is on.
-        """
-        self._do(lambda now: self._machine.cancel_test())
+    def end_early(self) -> None:
+        """Ends a jog after the move that is on, a motor test after its motor; the robot stays armed."""
+        self._do(lambda now: self._machine.end_early())
 
     # Inside
 

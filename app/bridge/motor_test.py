@@ -105,7 +105,7 @@ class MotorTest:
     def _named(self) -> str:
         return name_motor(self._motor or 0)
 
-    def cancel(self) -> None:
+    def end_early(self) -> None:
         """Ends the test after the motor that is being tested."""
         self._cancelled = True
 

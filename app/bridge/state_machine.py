@@ -148,11 +148,12 @@ class RobotStateMachine(RobotLink):
         self.become(now, f"Motor test by {by}.", sentence, robot=RobotState.MOVING)
         self._go_on_testing(self._test, None, now)
 
-    def cancel_test(self) -> None:
-        """Ends a motor test after the motor that is being tested."""
-        if self._test is None:
-            raise StateError("No motor test is on.", "motor_test")
-        self._test.cancel()
+    def end_early(self) -> None:
+        """Ends a jog after the move that is on, a motor test after the motor that is being tested."""
+        if self._test is not None:
+            self._test.end_early()
+        if self._jog is not None:
+            self._jog.end_early()
         self.revision += 1
 
     def pause(self, by: str, now: float) -> None:

@@ -49,7 +49,10 @@ class MotorTestService:
         Raises:
             StateError: no test is on.
         """
-        self._bridge.cancel_test()
+        test = self._bridge.snapshot.motor_test
+        if test is None or test.state is not MotorTestState.RUNNING:
+            raise StateError("No motor test is on.", "motor_test")
+        self._bridge.end_early()
 
     def view(self) -> Json:
         """The test that is on or was the last, as JSON content."""
@@ -74,7 +77,7 @@ class MotorTestService:
 
 
 _ENDS = {
-    MotorTestState.RUNNING: "The motor test is on.",
+    MotorTestState.RUNNING: "The motor test is running.",
     MotorTestState.DONE: "The motor test is done.",
     MotorTestState.CANCELLED: "The motor test was ended early.",
     MotorTestState.STOPPED: "The motor test was stopped.",
@@ -83,13 +86,13 @@ _ENDS = {
 
 def _sentence(shown: MotorTestProgress) -> str:
     """How far the test is, and which motors are not good."""
-    tested = f"{_ENDS[shown.state]} {len(shown.findings)} of {MOTORS} motors were looked at"
+    tested = f"{_ENDS[shown.state]} {len(shown.findings)} of {MOTORS} motors tested"
     bad = [str(one.motor + 1) for one in shown.findings if one.verdict is not MotorVerdict.GOOD]
     if not shown.findings:
         return f"{tested}."
     if not bad:
-        return f"{tested}; all of them are good."
-    return f"{tested}; not good: {'motor' if len(bad) == 1 else 'motors'} {', '.join(bad)}."
+        return f"{tested}, all good."
+    return f"{tested}, not good: {', '.join(bad)}."
 
 
 def _finding(finding: MotorFinding) -> Json:

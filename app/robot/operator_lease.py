@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.lease import GONE_SECONDS, Holding, Lease, Person, policy, refusal
-from app.bridge.states import IN_RUN, LinkState, MotorTestState, RobotState
+from app.bridge.states import IN_RUN, LinkState, RobotState
 from app.common.json import Json
 from app.undo.history import SCRIPT, Author
 from core.errors import StateError
@@ -104,6 +104,13 @@ class OperatorLease:
             is_back = self._lease.heard(page)
         if is_back:
             self._changed()
+
+    def page_left(self, page: str) -> None:
+        """A page lost its events, so its keys drive no further: a jog of the holder ends early."""
+        with self._lock:
+            holder = self._lease.now.holder
+        if holder is not None and holder.page == page and self._bridge.snapshot.jog is not None:
+            self._bridge.end_early()
 
     def ask(self, author: Author) -> None:
         """Asks for the robot; see `Lease.ask`."""
@@ -223,12 +230,12 @@ class OperatorLease:
             self._hold_on(holder)
 
     def _hold_on(self, holder: Person) -> None:
-        """The stated policy: on to the next pose with all feet down, and wait there; a motor test ends."""
-        test = self._bridge.snapshot.motor_test
+        """The stated policy: on to the next pose with all feet down, and wait there; all else ends early."""
+        now = self._bridge.snapshot
         try:
-            if test is not None and test.state is MotorTestState.RUNNING:
-                self._bridge.cancel_test()
-            elif self._bridge.snapshot.robot is RobotState.MOVING:
+            if now.run is None:
+                self._bridge.end_early()
+            elif now.robot is RobotState.MOVING:
                 self._bridge.pause(f"the studio, as {holder.title} is gone")
         except StateError as refused:  # the run ended meanwhile, or it is a reset, which ends by itself
             logger.info("Not paused although %s is gone: %s", holder.title, refused.sentence)

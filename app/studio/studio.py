@@ -240,6 +240,7 @@ class Studio:
         """Updates what the other pages can undo: anybody may undo the edits of a page that is gone."""
         if page not in self.hub.pages():
             self.patterns.forget(page)
+            self.robot.lease.page_left(page)
         self.publisher.publish_steps(page)
 
     def _storage_changed(self, view: Json) -> None:

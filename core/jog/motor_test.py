@@ -177,10 +177,10 @@ def judge_first_ramp(move: MotorMove, strokes: Floats) -> MotorFinding | None:
         return MotorFinding(
             move.motor,
             MotorVerdict.NO_ANSWER,
-            f"Its stroke changed by {_mm(abs(made))} mm where {_mm(abs(move.by))} mm were asked for.",
-            "If its rod moved, the potentiometer or its cable is broken. If not, look for a jam, a loose "
-            "motor cable or a dead driver"
-            + (", or for exchanged wires: it stands at the end of its travel." if at_end else "."),
+            f"Its stroke changed by {_mm(abs(made))} of {_mm(abs(move.by))} mm.",
+            "Did its rod move? Then the potentiometer or its cable is broken. If not: a jam, a loose motor "
+            "cable or a dead driver."
+            + (" Or it turned the wrong way, against the end of its travel." if at_end else ""),
             moved=made,
         )
     return None
@@ -223,7 +223,7 @@ def judge_move(move: MotorMove, out: Floats, back: Floats) -> MotorFinding:
             moved=made,
             off=move.made(back),
         )
-    sentence = f"It went {_mm(made)} mm out in one ramp, and {_mm(returned)} mm back."
+    sentence = f"{_mm(made)} mm out, {_mm(returned)} mm back."
     return MotorFinding(move.motor, MotorVerdict.GOOD, sentence, moved=made)
 
 

@@ -165,8 +165,8 @@ class CommandQueue(RuleBasedStateMachine):
         self.wish(lambda: self.robot.machine.test_motors(WALKER, BY, self.robot.now))
 
     @rule()
-    def cancel_the_test(self) -> None:
-        self.wish(self.robot.machine.cancel_test)
+    def end_early(self) -> None:
+        self.robot.machine.end_early()
 
     @rule()
     def reset(self) -> None:

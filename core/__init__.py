@@ -1,1 +1,1 @@
-"""Pure mathematics and values, with numpy alone; its own files are arrays, errors, findings and names."""
+"""Pure mathematics and values with numpy alone; its own files: arrays, errors, findings, names, overrides."""

@@ -7,8 +7,9 @@ from datetime import datetime
 from enum import StrEnum
 from typing import Any
 
-from core.errors import StateError
+from core.errors import InputError, StateError
 from core.names import is_visible
+from core.overrides import FINAL, MOST_REASON, OVERRIDABLE, OverrideRequest
 
 TOLERANCE = 1e-6
 """What a limit may be passed by before it counts, m."""
@@ -56,6 +57,11 @@ class Finding:
     actuator: int | None = None
     time: float | None = None
     remedy: str = ""
+
+    @property
+    def is_overridable(self) -> bool:
+        """Whether it is an error that a person may override."""
+        return self.severity is Severity.ERROR and self.rule in OVERRIDABLE
 
     @property
     def identity(self) -> tuple[str, Severity, int | None, int | None, int | None]:
@@ -161,9 +167,14 @@ class Verdict:
         return tuple(f for f in self.findings if f.severity is Severity.WARNING)
 
     @property
+    def errors(self) -> tuple[Finding, ...]:
+        """Findings that block approval."""
+        return tuple(f for f in self.findings if f.severity is Severity.ERROR)
+
+    @property
     def passed(self) -> bool:
         """Whether no error stands."""
-        return all(f.severity is not Severity.ERROR for f in self.findings)
+        return not self.errors
 
     @property
     def content_hash(self) -> str:
@@ -179,6 +190,26 @@ class Verdict:
 
 
 @dataclass(frozen=True)
+class Override:
+    """Errors in spite of which a person approves.
+
+    Args:
+        rules: whose errors are overridden.
+        reason: why, in the person's words.
+        errors: all that stood; the approval does not cover another one.
+    """
+
+    rules: tuple[str, ...]
+    reason: str
+    errors: tuple[Finding, ...]
+
+    def new_error(self, verdict: Verdict) -> Finding | None:
+        """The first error of a verdict that did not stand when the person approved."""
+        known = {error.identity for error in self.errors}
+        return next((error for error in verdict.errors if error.identity not in known), None)
+
+
+@dataclass(frozen=True)
 class Approval:
     """A person's word that these waypoints may move the robot.
 
@@ -190,6 +221,7 @@ class Approval:
         warnings: sentences of the warnings that stood, and that the person has seen.
         robot_hash: of the robot's parameters; nothing in approvals of the first release.
         form: of the verdict's hash; approvals that name none are of the first.
+        override: of the errors in spite of which it was given; None where none stood.
     """
 
     verdict_hash: str
@@ -199,25 +231,37 @@ class Approval:
     warnings: tuple[str, ...] = ()
     robot_hash: str = ""
     form: int = 1
+    override: Override | None = None
 
 
-def approve(verdict: Verdict, by: str, when: datetime, *, accept_warnings: bool = False) -> Approval:
-    """Binds a person to a verdict without errors.
+def approve(
+    verdict: Verdict,
+    by: str,
+    when: datetime,
+    *,
+    accept_warnings: bool = False,
+    override: OverrideRequest | None = None,
+) -> Approval:
+    """Binds a person to a verdict without errors, or with errors that they override.
 
     Args:
         verdict: of the waypoints that are approved.
         by: the person's name.
         when: now.
         accept_warnings: whether the person has seen every warning and accepts it.
+        override: of the errors that stand.
 
     Raises:
-        StateError: an error stands, or a warning that was not accepted, or no name was given.
+        StateError: an error stands that is not overridden, or a warning that was not accepted, or no name
+            was given, or no error stands of a rule that is overridden.
+        InputError: the override has no reason, or is of a rule that may not be overridden.
     """
     if not is_visible(by):
         raise StateError("An approval needs the name of the person who gives it.", "by")
-    if not verdict.passed:
-        errors = [f for f in verdict.findings if f.severity is Severity.ERROR]
-        raise StateError(f"Errors block approval ({len(errors)}). First: {errors[0].sentence}", "verdict")
+    overridden = None if override is None else _override(verdict, override)
+    left = [one for one in verdict.errors if overridden is None or one.rule not in overridden.rules]
+    if left:
+        raise StateError(f"Errors block approval ({len(left)}). First: {left[0].sentence}", "verdict")
     if verdict.warnings and not accept_warnings:
         count = len(verdict.warnings)
         raise StateError(
@@ -227,4 +271,56 @@ def approve(verdict: Verdict, by: str, when: datetime, *, accept_warnings: bool 
         )
     seen = tuple(finding.sentence for finding in verdict.warnings)
     hashes = (verdict.content_hash, verdict.waypoints_hash)
-    return Approval(*hashes, by.strip(), when.isoformat(), seen, verdict.robot_hash, VERDICT_FORM)
+    when_text = when.isoformat()
+    return Approval(*hashes, by.strip(), when_text, seen, verdict.robot_hash, VERDICT_FORM, overridden)
+
+
+def override_all(verdict: Verdict, reason: str) -> OverrideRequest:
+    """The override of every error that stands.
+
+    Args:
+        verdict: with its errors.
+        reason: why.
+
+    Raises:
+        InputError: there is no reason, no error stands, or one that may not be overridden.
+    """
+    if not verdict.errors:
+        raise InputError("No error stands that could be overridden. Leave the override out.", "override")
+    final = next((error for error in verdict.errors if not error.is_overridable), None)
+    if final is not None:
+        raise InputError(f"{final.sentence} {final_words(final.rule)}", "override")
+    request = OverrideRequest(tuple(sorted({error.rule for error in verdict.errors})), reason)
+    _override(verdict, request)
+    return request
+
+
+def _override(verdict: Verdict, request: OverrideRequest) -> Override:
+    reason = request.reason.strip()
+    if not is_visible(reason) or len(reason) > MOST_REASON:
+        raise InputError(
+            f"An override needs a reason of 1 to {MOST_REASON} characters. Write why the robot may move in "
+            "spite of these errors.",
+            "override",
+        )
+    if not request.rules:
+        raise InputError("An override must name the rules whose errors it is about.", "override")
+    standing = {error.rule for error in verdict.errors}
+    for rule in request.rules:
+        if rule not in OVERRIDABLE:
+            raise InputError(final_words(rule), "override")
+        if rule not in standing:
+            raise StateError(
+                f"No error of the rule “{rule}” stands, so there is nothing to override. Look at the check "
+                "and approve again.",
+                "override",
+            )
+    return Override(tuple(sorted(set(request.rules))), reason, verdict.errors)
+
+
+def final_words(rule: str) -> str:
+    """Why errors of a rule cannot be overridden, in a sentence."""
+    why = FINAL.get(rule)
+    if why is None:
+        return f"There is no rule “{rule}” that may be overridden. These may be: {', '.join(OVERRIDABLE)}."
+    return f"Errors of the rule “{rule}” cannot be overridden. {why}"

@@ -3,6 +3,7 @@
 import json
 import sys
 from argparse import ArgumentParser, Namespace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -10,8 +11,10 @@ from app.cli.commands_gait import optimise
 from app.cli.common.argument_types import number, one_of, words_of
 from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show, write
+from app.cli.common.within_stroke import add_within_stroke, require_within
 from app.cli.gait_motion import poses_of
 from app.cli.gait_options import Method
+from app.common.clipped import clipped_content
 from app.documents.gait_json import gait_content, parse_gait
 from app.documents.trajectory_json import trajectory_content
 from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, export
@@ -23,11 +26,16 @@ from app.plans.plan import Plan
 from app.plans.sequence_plan import sequence_plan
 from app.store.gait_files import GaitFiles, default_data_folder
 from app.store.plain_file import write_atomically
+from core.arrays import Floats
 from core.errors import InputError
 from core.gait.gait import Gait
+from core.gait.recording import RecordingFit
 from core.library.library import library
 from core.pose_gaits.gait_poses import with_poses
 from core.recorded.recorded_gait import DescribedGait
+from core.recorded.recorded_motion import gait_motion
+from core.robot.kinematics import UnreachableError
+from core.robot.model import load_robot
 from solver_jobs import SolveStatus, solve_live
 
 _RECORDED = (".csv", ".npz")
@@ -155,6 +163,7 @@ def import_command(parser: ArgumentParser) -> None:
     add("file", type=Path, help="TRAJ.csv, WAY.csv, MOTION.npz, PHASES.json or GAIT.json")
     add("--name", default=None, help="of the gait; the file's where left out")
     add("--robot", default=None, help="robot of the motion (default the first one with as many feet)")
+    add_within_stroke(parser)
     add("--sample-time", type=number(0.001, 60.0, "s"), default=None, help="of a phase list, s")
     add("-o", "--output", type=Path, default=None, help="gait file to write")
 
@@ -165,6 +174,7 @@ def run_import(options: Namespace) -> int:
     content = gait_content(described.gait)
     for remark in described.remarks:
         note(remark)
+    clipped = _clipped(described.gait)
     if options.output is None and not options.json:
         write(sys.stdout, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
         return 0
@@ -173,10 +183,28 @@ def run_import(options: Namespace) -> int:
     file = None if options.output is None else str(options.output)
     show(
         options,
-        {"gait": content, "remarks": list(described.remarks), "file": file},
+        {
+            "gait": content,
+            "remarks": list(described.remarks),
+            "clipped_mm": clipped_content(clipped),
+            "file": file,
+        },
         [f"Wrote {options.output}."],
     )
     return 0
+
+
+def _clipped(gait: Gait) -> Floats | None:
+    """How far each recorded stroke was clipped, m; says how a motion beyond the motors' range can be kept."""
+    if gait.recorded is None:
+        return None
+    model = load_robot(gait.robot)
+    motion = gait_motion(gait, gait.recorded, model)
+    try:
+        require_within(model, motion.trajectory)
+    except UnreachableError as refusal:
+        note(refusal.sentence)
+    return motion.clipped
 
 
 def imported_gait(options: Namespace) -> DescribedGait:
@@ -187,8 +215,9 @@ def imported_gait(options: Namespace) -> DescribedGait:
     """
     path: Path = options.file
     name = options.name or path.name.split(".")[0] or path.stem
+    fit = RecordingFit(within_stroke=options.within_stroke)
     if path.suffix == ".npz" and options.sample_time is None:
-        return gait_of_recording(recording_of_npz(path), name, options.robot)
+        return gait_of_recording(replace(recording_of_npz(path), fit=fit), name, options.robot)
     companion = companion_path(path)
     return read_gait(
         read_whole_text(path),
@@ -197,4 +226,5 @@ def imported_gait(options: Namespace) -> DescribedGait:
         companion=read_whole_text(companion) if path.suffix == ".csv" and companion.exists() else None,
         sample_time=options.sample_time,
         robot=options.robot,
+        fit=fit,
     )

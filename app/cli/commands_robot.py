@@ -22,11 +22,11 @@ from app.emulator.emulated_robot import start_emulator
 from app.emulator.faults import Fault, FaultRequest
 from app.emulator.profiles import ProfileName
 from app.export.trajectory_files import read_waypoints
-from app.gaits.verdict_views import approval_view, verdict_view
+from app.gaits.verdict_views import approval_view, override_view, override_words, verdict_view
 from app.store.gait_files import default_data_folder
 from core.checks.rules import check_waypoints
 from core.errors import CheckError, InputError, RobotError
-from core.findings import Approval, Severity, Verdict, approve
+from core.findings import Approval, Verdict, approve, override_all
 from core.robot.model import load_robot
 
 LOOK_SECONDS = 0.2
@@ -156,6 +156,8 @@ def send_command(parser: ArgumentParser) -> None:
     add("--robot", required=True, help="emulator, a serial device, or socket://HOST:PORT")
     add("--yes", action="store_true", help="approve in your name without being asked")
     add("--clear-stop", action="store_true", help="lift a stop that the robot holds from another program")
+    text = "send in spite of errors that may be overridden; the reason is kept with the run"
+    add("--override", default=None, metavar="REASON", help=text)
     add("--data", type=Path, default=None, help="data folder, where the run is kept")
 
 
@@ -164,7 +166,8 @@ def run_send(options: Namespace) -> int:
     end_on_signals()
     waypoints, model = read_waypoints(options.file), load_robot("deltawalker")
     verdict = check_waypoints(model, waypoints)
-    if not verdict.passed:
+    _require_numbers(options.file, verdict)
+    if not verdict.passed and options.override is None:
         return _refuse(options, verdict)
     plan = RunPlan(waypoints, _approval(verdict, options), (True,) * waypoints.count)
     data = (options.data or default_data_folder()).expanduser()
@@ -174,18 +177,20 @@ def run_send(options: Namespace) -> int:
     return INTERRUPTED if ended.is_interrupted else status
 
 
-def _refuse(options: Namespace, verdict: Verdict) -> int:
-    """A number out of its range is bad input; everything else is not fit."""
-    errors = [f for f in verdict.findings if f.severity is Severity.ERROR]
-    out_of_range = [f for f in errors if f.rule in BAD_INPUT]
+def _require_numbers(file: Path, verdict: Verdict) -> None:
+    """A number out of its range is bad input, with its line."""
+    out_of_range = [f for f in verdict.errors if f.rule in BAD_INPUT]
     if out_of_range:
         first = min(out_of_range, key=lambda f: f.sample or 0)
-        raise InputError(first.sentence, f"{options.file}:{(first.sample or 0) + 2}")
-    show(
-        options,
-        {"error": errors[0].sentence, "where": str(options.file), **verdict_view(verdict)},
-        verdict_lines(verdict),
-    )
+        raise InputError(first.sentence, f"{file}:{(first.sample or 0) + 2}")
+
+
+def _refuse(options: Namespace, verdict: Verdict) -> int:
+    lines = verdict_lines(verdict)
+    if all(error.is_overridable for error in verdict.errors):
+        lines.append("  --override REASON sends in spite of these errors, in your name.")
+    error = {"error": verdict.errors[0].sentence, "where": str(options.file)}
+    show(options, {**error, **verdict_view(verdict)}, lines)
     return NOT_FIT
 
 
@@ -194,17 +199,20 @@ def _approval(verdict: Verdict, options: Namespace) -> Approval:
 
     Raises:
         CheckError: they did not give it.
+        InputError: errors cannot be overridden as they ask.
     """
-    name = getpass.getuser()
+    name, reason = getpass.getuser(), options.override
+    override = None if reason is None else override_all(verdict, reason)
     note("\n".join(verdict_lines(verdict)))
     if not options.yes:
+        spite = "" if override is None else f" in spite of errors of {', '.join(override.rules)}"
         note(
             f"{options.file}: the robot will move, slowly to the start pose first. Stop is Ctrl-C, in effect "
-            f"after the move that is running. Approve as {name} and send? [y/N]"
+            f"after the move that is running. Approve{spite} as {name} and send? [y/N]"
         )
         if _answer() not in ("y", "yes"):
             raise CheckError("Not approved; nothing was sent.", str(options.file))
-    return approve(verdict, name, datetime.now(UTC), accept_warnings=True)
+    return approve(verdict, name, datetime.now(UTC), accept_warnings=True, override=override)
 
 
 def _answer() -> str:
@@ -226,9 +234,13 @@ def _report(options: Namespace, snapshot: RobotSnapshot, plan: RunPlan) -> int:
         "seconds": run.elapsed if run else 0.0,
         "waypoints_hash": waypoints.content_hash,
         "approval": approval_view(plan.approval),
+        "override": override_view(plan.approval),
     }
     is_done = snapshot.robot is RobotState.DONE
     if not is_done:
         content |= {"error": snapshot.sentence, "where": "robot"}
-    show(options, content, [snapshot.sentence])
+    lines = [snapshot.sentence]
+    if content["override"] is not None:
+        lines.append(f"Approved in spite of: {override_words(content['override'])}")
+    show(options, content, lines)
     return 0 if is_done else ROBOT_FAILED

@@ -13,13 +13,15 @@ from app.cli.commands_plan import ROBOT, add_way_options
 from app.cli.common.argument_types import add_robot, one_of, whole, words_of
 from app.cli.common.command import set_command
 from app.cli.common.output import NOT_FIT, end_on_signals, note, show, tally
-from app.cli.gait_motion import sending_of, trajectory_of
+from app.cli.common.within_stroke import add_within_stroke, kept_within
+from app.cli.gait_motion import checked_gait
+from app.common.clipped import clipped_content
 from app.common.json import Json
 from app.common.signals import Interrupted
-from app.documents.gait_json import parse_gait
-from app.export.trajectory_files import read_text, read_trajectory
+from app.export.trajectory_files import read_trajectory
 from app.export.way_files import is_way_file, read_way_file
 from app.learning.parameter_sets import ParameterSets
+from app.plans.plan import sending_of
 from app.simulation.problem import report_figures, way_problem
 from app.simulation.view import variations_content
 from app.store.database import DATABASE, Database
@@ -28,7 +30,6 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.findings import Finding, Severity
 from core.gait.gait import Gait
-from core.library.new_gait import with_robot
 from core.motion.trajectory import Trajectory
 from core.physics.findings import physics_outcomes
 from core.physics.masses import physics_for
@@ -52,6 +53,7 @@ def simulate_command(parser: ArgumentParser) -> None:
     add("file", type=Path, help="TRAJ.csv, WAY.csv or GAIT.json")
     add_robot(parser, "default the gait's own, else deltawalker")
     add_way_options(parser)
+    add_within_stroke(parser)
     text = f"parameters: {', '.join(physics_sets())}, or a learned set (default the robot's usual one)"
     add("--physics", default=None, metavar="SET", help=text)
     add("--data", type=Path, default=None, help="data folder, where learned sets are kept")
@@ -64,7 +66,7 @@ def simulate_command(parser: ArgumentParser) -> None:
 def run_simulate(options: Namespace) -> int:
     """Physics of exactly the waypoints that would be sent of a trajectory or gait file."""
     end_on_signals()
-    problem = _problem(options)
+    problem, clipped = _problem(options)
     motion = _simulated(problem)
     figures = report(problem, motion)
     findings = tuple(found for one in physics_outcomes(figures, problem) for found in one.findings)
@@ -74,6 +76,7 @@ def run_simulate(options: Namespace) -> int:
         runs = simulate_variations(problem, options.variations, options.seed, tell)
     passed = all(found.severity is not Severity.ERROR for found in findings)
     content = simulation_content(problem, figures, findings, runs, options.seed)
+    content["clipped_mm"] = clipped_content(clipped)
     show(options, content, _lines(problem, figures, findings, runs))
     return 0 if passed else NOT_FIT
 
@@ -112,13 +115,16 @@ def _simulated(problem: SimulationProblem) -> SimulatedMotion:
         raise
 
 
-def _problem(options: Namespace) -> SimulationProblem:
-    model, trajectory, gait = _input(options)
+def _problem(options: Namespace) -> tuple[SimulationProblem, Floats | None]:
+    """What is simulated, and how far each of its strokes was clipped, m."""
+    model, trajectory, gait, recorded = _input(options)
+    trajectory, clipped = kept_within(options, model, trajectory)
+    clipped = recorded if recorded is not None else clipped
     merge, bound = (0.0, None) if gait is None else sending_of(gait)
     merge = merge if options.merge is None else options.merge
     bound = bound if options.stop_bound is None else options.stop_bound
     way = plan_waypoints(model, trajectory, merge, bound)
-    return way_problem(model, trajectory, way, physics_set(options, model), options.rig)
+    return way_problem(model, trajectory, way, physics_set(options, model), options.rig), clipped
 
 
 def physics_set(options: Namespace, model: RobotModel) -> PhysicsSet:
@@ -140,20 +146,18 @@ def physics_set(options: Namespace, model: RobotModel) -> PhysicsSet:
         return ParameterSets(database).chosen(model, options.physics)
 
 
-def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None]:
-    """Robot, motion and document of a trajectory, waypoint or gait file; only a gait file has a document."""
+def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None, Floats | None]:
+    """Robot, motion, and of a gait file the document and how far its recorded strokes were clipped, m."""
     path: Path = options.file
     if is_way_file(path):
-        return *_motion_of_waypoints(path, options.robot), None
+        return *_motion_of_waypoints(path, options.robot), None, None
     if path.suffix != ".json":
         read = read_trajectory(path)
         for assumption in read.assumptions:
             note(assumption)
-        return load_robot(options.robot or read.robot or ROBOT), read.trajectory, None
-    gait = parse_gait(read_text(path), path.name)
-    if options.robot is not None:
-        gait = with_robot(gait, load_robot(options.robot))
-    return load_robot(gait.robot), trajectory_of(gait), gait
+        return load_robot(options.robot or read.robot or ROBOT), read.trajectory, None, None
+    gait, trajectory, clipped = checked_gait(path, options.robot)
+    return load_robot(gait.robot), trajectory, gait, clipped
 
 
 def _motion_of_waypoints(path: Path, robot: str | None) -> tuple[RobotModel, Trajectory]:

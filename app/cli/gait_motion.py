@@ -1,4 +1,4 @@
-"""The motion of a gait document and its verdict; a motion that the document lacks is solved now."""
+"""The motion of a gait document; a motion that the document lacks is solved now."""
 
 from functools import partial
 from pathlib import Path
@@ -8,10 +8,8 @@ from app.cli.common.output import note
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text
 from app.plans.sequence_plan import steps_between
-from app.simulation.physics_check import checked_in_physics
-from core.checks.checked_plan import checked_plan
+from core.arrays import Floats
 from core.errors import CheckError, FootfallError, InfeasibleError
-from core.findings import Verdict
 from core.gait.gait import Gait, SequencePart
 from core.gait.manual_motion import manual_motion
 from core.library.new_gait import with_robot
@@ -20,29 +18,28 @@ from core.motion.trajectory import Trajectory
 from core.pose_gaits.gait_poses import found_gait, pose_problem, with_poses
 from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_gait import PoseGait
-from core.recorded.recorded_motion import gait_trajectory
+from core.recorded.recorded_motion import gait_motion, gait_trajectory
 from core.robot.model import load_robot
-from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import SolveStatus, solve_live, solve_poses
 
 
-def gait_verdict(path: Path, robot: str | None) -> Verdict:
-    """The verdict on a gait file, with another robot where one is named."""
+def checked_gait(path: Path, robot: str | None) -> tuple[Gait, Trajectory, Floats | None]:
+    """A gait file as it is checked, its motion, and how far recorded strokes were clipped, m.
+
+    Args:
+        path: of the file.
+        robot: another robot; None for the gait's own.
+    """
     gait = parse_gait(read_text(path), path.name)
     if robot is not None:
         gait = with_robot(gait, load_robot(robot))
-    model = load_robot(gait.robot)
     if gait.poses is not None:
         # What was left to the search, such as the step, is then in the document that the motion is held to.
         gait = with_poses(gait, poses_of(gait))
-    trajectory = trajectory_of(gait)
-    way = plan_waypoints(model, trajectory, *sending_of(gait))
-    return checked_in_physics(checked_plan(gait, model, trajectory, way))
-
-
-def sending_of(gait: Gait) -> tuple[float, float | None]:
-    """Tolerance, m, and stop bound, s, by which waypoints are merged and cut; poses stay as they are."""
-    return (0.0, None) if gait.poses is not None else (gait.options.merge, gait.options.stop_bound)
+    if gait.recorded is not None and not gait.sequence:
+        motion = gait_motion(gait, gait.recorded, load_robot(gait.robot))
+        return gait, motion.trajectory, motion.clipped
+    return gait, trajectory_of(gait), None
 
 
 def trajectory_of(gait: Gait) -> Trajectory:

@@ -15,6 +15,7 @@ from app.documents.gait_schema import (
     OptionsModel,
     PosesModel,
     ProvenanceModel,
+    RecordingFitModel,
     RecordingModel,
     SegmentTableModel,
     SingleGaitModel,
@@ -27,7 +28,7 @@ from core.gait.held_feet import HeldFeet
 from core.gait.options import GaitOptions
 from core.gait.poses import POSE_LIMITS, FoundPoses, PinnedPose, Poses
 from core.gait.provenance import Provenance
-from core.gait.recording import Recording
+from core.gait.recording import AS_RECORDED, Recording, RecordingFit
 from core.motion.contact_timeline import ContactTimeline, bits_from_rows, rows_from_bits
 from core.robot.model import RobotModel, load_robot
 from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary, require_heights
@@ -174,7 +175,8 @@ def _to_poses(model: PosesModel | None, feet: int) -> Poses | None:
 def _to_recording(model: RecordingModel | None) -> Recording | None:
     if model is None:
         return None
-    recording = Recording(model.file, model.form, model.text, model.companion, tuple(model.assumed))
+    fit = RecordingFit(**model.fit.model_dump())
+    recording = Recording(model.file, model.form, model.text, model.companion, tuple(model.assumed), fit)
     if recording.sha256 != model.sha256:
         raise InputError(
             f"The recorded motion's text has the SHA-256 {recording.sha256[:10]}…, the document says "
@@ -260,7 +262,15 @@ def _recording_content(recording: Recording) -> Json:
         "companion": recording.companion,
         "sha256": recording.sha256,
         "assumed": list(recording.assumed),
+        **_fit_content(recording),
     }
+
+
+def _fit_content(recording: Recording) -> Json:
+    """Left out where the motion is as recorded, so that documents without it keep their text and hash."""
+    if recording.fit == AS_RECORDED:
+        return {}
+    return {"fit": RecordingFitModel(**vars(recording.fit)).model_dump(mode="json")}
 
 
 def _table_content(table: SegmentTable) -> Json:
@@ -302,6 +312,7 @@ def motion_hash(gait: Gait) -> str:
     if gait.recorded is not None:
         content["recorded"] = {"form": recording["form"], "sha256": recording["sha256"]}
         content["recorded"]["companion"] = gait.recorded.companion_sha256
+        content["recorded"] |= _fit_content(gait.recorded)
     if gait.poses is not None:
         content = _asked_poses(content, gait.poses)
     if gait.sequence:

@@ -7,7 +7,14 @@ from pydantic import BaseModel, ConfigDict, Field
 from core.gait.gait import Orientation
 from core.gait.options import OPTION_BOUNDS, GaitOptions
 from core.gait.poses import MOST_PINNED, MOST_SWAY, POSE_LIMITS, Poses
-from core.gait.recording import RecordingForm
+from core.gait.recording import (
+    LEAST_SCALE,
+    MOST_RAISED,
+    MOST_SCALE,
+    RecordingFit,
+    RecordingForm,
+    WithinStroke,
+)
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
 
@@ -121,6 +128,29 @@ class OptionsModel(_Model):
     )
 
 
+_RAISED_BOUNDS: dict[str, Any] = {"minimum": -MOST_RAISED, "maximum": MOST_RAISED}
+
+
+class RecordingFitModel(_Model):
+    """How a recorded motion is changed to fit the robot; its text stays as it is."""
+
+    body: Metres = _field(
+        "added to the body's heights, m", default=RecordingFit.body, json_schema_extra=_RAISED_BOUNDS
+    )
+    feet: Metres = _field(
+        "added to the heights of the feet, m", default=RecordingFit.feet, json_schema_extra=_RAISED_BOUNDS
+    )
+    scale: float = _field(
+        "factor of the ways of body and feet from the first sample on, no unit",
+        default=RecordingFit.scale,
+        json_schema_extra={"minimum": LEAST_SCALE, "maximum": MOST_SCALE},
+    )
+    within_stroke: WithinStroke | None = _field(
+        "clip: strokes beyond the motors' range go to its end; null: such a motion is refused",
+        default=RecordingFit.within_stroke,
+    )
+
+
 class RecordingModel(_Model):
     """The motion of a file, which is then the gait's motion."""
 
@@ -130,6 +160,10 @@ class RecordingModel(_Model):
     companion: str | None = _field("text of a trajectory's companion; null: it had none", default=None)
     sha256: str = _field("SHA-256 of `text` in UTF-8, hexadecimal")
     assumed: list[str] = _field("what reading the file assumed, a sentence each", default_factory=list)
+    fit: RecordingFitModel = _field(
+        "how the motion is changed to fit the robot. Left out where it is as recorded",
+        default_factory=RecordingFitModel,
+    )
 
 
 _PINNED_BOUNDS: dict[str, Any] = {"minimum": -MOST_PINNED, "maximum": MOST_PINNED}

@@ -17,7 +17,7 @@ from core.errors import FootfallError, InputError
 from core.motion.phase_list import format_phases
 from core.motion.trajectory_npz import MotionFile, format_npz
 from core.robot.model import load_robot
-from core.wire.trajectory_csv import format_companion, format_trajectory_csv
+from core.wire.trajectory_csv import bound_companion, format_companion, format_trajectory_csv
 from core.wire.waypoints import format_waypoint_csv
 
 
@@ -80,9 +80,10 @@ def _companion(source: Exportable) -> bytes:
         )
     text = _csv(source).decode()
     recording = motion.recording
-    if recording is not None and recording.companion is not None and recording.text == text:
-        return recording.companion.encode()
-    return format_companion(motion.trajectory, text).encode()
+    if recording is None or recording.companion is None:
+        return format_companion(motion.trajectory, text).encode()
+    same = recording.text == text
+    return (recording.companion if same else bound_companion(recording.companion, text)).encode()
 
 
 def _waypoints(source: Exportable) -> bytes:

@@ -8,10 +8,10 @@ from app.documents.gait_json import FORMAT, gait_from_content, require_bytes, re
 from app.export.trajectory_files import require_world_frame
 from core.errors import InputError
 from core.gait.gait import MOST_NAME
-from core.gait.recording import Recording, RecordingForm
+from core.gait.recording import AS_RECORDED, Recording, RecordingFit, RecordingForm
 from core.motion.phase_list import PHASES_FORMAT, parse_phases
 from core.recorded.recorded_gait import DescribedGait, gait_of_motion, gait_of_timeline
-from core.recorded.recorded_motion import recorded_motion
+from core.recorded.recorded_motion import fit_words, recorded_motion
 from core.robot.model import load_robot
 from core.wire.waypoints import is_waypoint_text
 
@@ -34,6 +34,7 @@ def read_gait(
     companion: str | None = None,
     sample_time: float | None = None,
     robot: str | None = None,
+    fit: RecordingFit = AS_RECORDED,
 ) -> DescribedGait:
     """Reads a gait document, a phase list, a trajectory CSV or a waypoint CSV.
 
@@ -44,20 +45,23 @@ def read_gait(
         companion: text of a trajectory's companion, where there is one.
         sample_time: of a phase list, s; the list's own where None.
         robot: the robot of a trajectory or of waypoints; None for the first one with as many feet.
+        fit: how the motion of a trajectory or of waypoints is changed to fit the robot.
 
     Raises:
         InputError: naming line, column, field, foot or phase of what is wrong.
     """
     if text.lstrip("\ufeff \t\r\n").startswith("{"):
-        if robot is not None:
-            raise InputError(
-                "A robot is chosen for trajectories and waypoints only; this is neither.", "robot"
-            )
+        for field, is_chosen in (("robot", robot is not None), ("within_stroke", fit != AS_RECORDED)):
+            if is_chosen:
+                raise InputError(
+                    f"{field} is chosen for trajectories and waypoints only; this is neither.", field
+                )
         return _from_json(text.removeprefix("\ufeff"), where, name, sample_time)
     if sample_time is not None:
         raise InputError("A sample time is chosen for phase lists only; this is none.", "sample_time")
     form = RecordingForm.WAYPOINTS if is_waypoint_text(text) else RecordingForm.TRAJECTORY
-    return gait_of_recording(Recording(where, form, text, companion), name or _name_of(where), robot)
+    recording = Recording(where, form, text, companion, fit=fit)
+    return gait_of_recording(recording, name or _name_of(where), robot)
 
 
 def gait_of_recording(recording: Recording, name: str, robot: str | None = None) -> DescribedGait:
@@ -73,12 +77,19 @@ def gait_of_recording(recording: Recording, name: str, robot: str | None = None)
             feet.
     """
     require_bytes(len((recording.text + (recording.companion or "")).encode()), recording.file)
-    read = recorded_motion(recording, None if robot is None else load_robot(robot))
+    motion = recorded_motion(recording, None if robot is None else load_robot(robot))
+    read = motion.read
     if recording.form is RecordingForm.TRAJECTORY:
         require_world_frame(read.trajectory, recording.file)
     described = gait_of_motion(read.trajectory, name, robot)
     assumed = (*recording.assumed, *read.assumptions)
-    remarks = (_KEPT[recording.form].format(file=recording.file), *described.remarks, *assumed)
+    changed = fit_words(recording.fit, motion.clipped)
+    remarks = (
+        _KEPT[recording.form].format(file=recording.file),
+        *((f"{changed[0].upper()}{changed[1:]}.",) if changed else ()),
+        *described.remarks,
+        *assumed,
+    )
     as_it_is = described.gait.with_options(merge=0.0, stop_bound=None)
     gait = replace(as_it_is, notes=" ".join(remarks), recorded=replace(recording, assumed=assumed))
     require_size(gait, recording.file)

@@ -8,7 +8,7 @@ from app.plans.plan import Plan, PlanSource
 from core.arrays import Floats
 from core.errors import FootfallError, InputError
 from core.gait.gait import Gait
-from core.gait.recording import Recording, RecordingForm
+from core.gait.recording import AS_RECORDED, Recording, RecordingForm
 from core.motion.trajectory import Trajectory
 from core.recorded.recorded_gait import gait_of_motion, robot_with
 from core.recorded.recorded_motion import recorded_motion
@@ -37,7 +37,8 @@ class Motion:
         note: a sentence on how it came about.
         layout: of the file that it was read from; None where it was computed.
         is_stated: whether times, heading and contact are known, not assumed in reading a file.
-        recording: the trajectory file itself, where the gait keeps it: it is written again as it was.
+        recording: the trajectory file itself, where the gait keeps it and its motion is that of the file: it
+            is written again as it was.
     """
 
     model: RobotModel
@@ -95,8 +96,9 @@ def exportable_plan(stem: str, gait: Gait, plan: Plan) -> Exportable:
     motion = _motion_of(plan)
     recording = gait.recorded if plan.source is PlanSource.RECORDED else None
     if isinstance(motion, Motion) and recording is not None and recording.form is RecordingForm.TRAJECTORY:
-        stated = recorded_motion(recording, plan.model).has_companion
-        motion = replace(motion, recording=recording, is_stated=stated)
+        stated = recorded_motion(recording, plan.model).read.has_companion
+        own_file = recording if recording.fit == AS_RECORDED else None
+        motion = replace(motion, recording=own_file, is_stated=stated)
     return Exportable(stem, gait, motion)
 
 

@@ -8,6 +8,7 @@ from enum import StrEnum
 import numpy as np
 
 from app.fastest.search import chosen_gait
+from core.errors import InputError
 from core.gait.foot_orders import order_title
 from core.gait.gait import Gait
 from core.gait.poses import Poses
@@ -34,10 +35,13 @@ SAME_ANGLE = 1e-9
 
 
 class Course(StrEnum):
-    """Where a gait goes: straight on or in a curve, or round on the spot to one side."""
+    """Where a gait goes: straight on or in a curve, or round on the spot by some turn or to one side."""
 
     WALK = "walk"
+    TURN = "turn"
+    """By so much a cycle."""
     LEFT = "left"
+    """As fast as it can."""
     RIGHT = "right"
 
 
@@ -50,8 +54,8 @@ class FastestRequest:
         order: every foot once, counted from 1; it begins with foot 1.
         heading: direction of travel, rad from x.
         overlap: whether a foot is lifted in the move that lowers the one before it.
-        course: whether it walks, or turns on the spot as fast as it can.
-        turn: of a walk, rad a cycle; to the left where it is above 0.
+        course: whether it walks, or turns on the spot by so much or as fast as it can.
+        turn: of a walk, and on the spot where it is given, rad a cycle; to the left where it is above 0.
         step: of a walk, m a cycle; None for that of the fastest.
         margin: static stability margin, m.
         clearance: of a swinging foot, m.
@@ -100,17 +104,21 @@ class FastestRequest:
         Raises:
             InputError: it asks for what such a gait cannot have.
         """
+        if self.course is Course.TURN and self.turn == 0.0:
+            raise InputError("The turn is 0 rad; enter how far the robot turns in each cycle.", "turn")
         model = self.model
         gait = with_robot(library()["walk"].gait, model, self.order)
         if self.course is Course.WALK:
             step = (USUAL_STEP if self.step is None else self.step, 0.0, self.turn)
+        elif self.course is Course.TURN:
+            step = (0.0, 0.0, self.turn)
         else:
             step = (0.0, 0.0, TURN_GUESS if self.course is Course.LEFT else -TURN_GUESS)
         asked = replace(
             gait, order=self.order, direction=1, step=step, iterations=self.cycles, held=gait.held
         ).with_options(margin=self.margin, clearance=self.clearance, stop_bound=self.stop_bound)
         poses = Poses(
-            free_step=self.step is None or self.course is not Course.WALK,
+            free_step=self.step is None if self.course is Course.WALK else self.course is not Course.TURN,
             slip=self.slip,
             shoe_distance=self.shoe_distance,
             arm_distance=self.arm_distance,

@@ -13,6 +13,7 @@ from core.errors import NotFoundError, StateError
 from core.findings import Approval, Verdict, approve, is_simulated
 from core.gait.gait import Gait
 from core.gait.gait_difference import DifferenceGroup, gait_difference
+from core.overrides import OverrideRequest
 from core.wire.robot_time import estimate_seconds, stop_time
 
 _UNITS = {"m": (1000.0, "mm"), "m/s": (1000.0, "mm/s"), "m/s²": (1000.0, "mm/s²")}
@@ -43,11 +44,13 @@ class ApprovalRequest:
         by: their name.
         verdict_hash: of the verdict that they saw, where it is known.
         accept_warnings: whether they have seen its warnings and accept them.
+        override: of the errors in spite of which they approve.
     """
 
     by: str
     verdict_hash: str | None = None
     accept_warnings: bool = False
+    override: OverrideRequest | None = None
 
 
 def approved(
@@ -62,8 +65,9 @@ def approved(
         request: what the person says.
 
     Raises:
-        StateError: there is no verdict, another one stands by now, an error stands, a warning is not
-            accepted, or there is no name.
+        StateError: there is no verdict, another one stands by now, an error stands that is not overridden, a
+            warning is not accepted, or there is no name.
+        InputError: the override has no reason, or is of a rule that may not be overridden.
     """
     if open_gait.verdict is None:
         raise StateError(
@@ -78,7 +82,8 @@ def approved(
             "this gait again.",
             "check",
         )
-    return approve(now, request.by, datetime.now(UTC), accept_warnings=request.accept_warnings), now
+    accepted, when = request.accept_warnings, datetime.now(UTC)
+    return approve(now, request.by, when, accept_warnings=accepted, override=request.override), now
 
 
 def approval_record(approval: Approval, version: int, plan: Plan, verdict: Verdict) -> Json:

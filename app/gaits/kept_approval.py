@@ -5,10 +5,14 @@ from collections.abc import Sequence
 from dataclasses import fields, replace
 from typing import Any
 
-from core.findings import VERDICT_FORM, Approval, Verdict
+from core.findings import VERDICT_FORM, Approval, Finding, Override, Severity, Verdict
 
 _FIGURE = re.compile(r"[-−]?\d+\.\d+")
 """A measured figure in a sentence; numbers of feet, motors and samples have no decimals."""
+
+OTHER_VERDICT = (
+    "The check has other findings or rules than the approved one, or a simulation was added or is gone"
+)
 
 LAST_DIGIT = 0.1 + 1e-9
 """Most by which rounding changes a figure in a sentence."""
@@ -16,9 +20,19 @@ LAST_DIGIT = 0.1 + 1e-9
 
 def approval_of(content: dict[str, Any]) -> Approval:
     """An approval out of its JSON content, whatever else stands beside it."""
-    known = {field.name for field in fields(Approval)}
-    values = {name: value for name, value in content.items() if name in known}
-    return Approval(**values | {"warnings": tuple(content.get("warnings", ()))})
+    values = _known(Approval, content) | {"warnings": tuple(content.get("warnings", ()))}
+    override = content.get("override")
+    return Approval(**values | {"override": None if override is None else _override_of(override)})
+
+
+def _override_of(content: dict[str, Any]) -> Override:
+    errors = [_known(Finding, one) | {"severity": Severity(one["severity"])} for one in content["errors"]]
+    return Override(tuple(content["rules"]), content["reason"], tuple(Finding(**one) for one in errors))
+
+
+def _known(kind: type[Approval | Finding], content: dict[str, Any]) -> dict[str, Any]:
+    names = {field.name for field in fields(kind)}
+    return {name: value for name, value in content.items() if name in names}
 
 
 def in_todays_form(approval: Approval, verdict: Verdict) -> Approval:
@@ -35,12 +49,19 @@ def in_todays_form(approval: Approval, verdict: Verdict) -> Approval:
 
 
 def what_changed(approval: Approval, verdict: Verdict) -> str | None:
-    """Why an approval is not of a verdict, as the beginning of a sentence; None where it is."""
+    """Why an approval is not of a verdict, as the beginning of a sentence; None where it is.
+
+    One that overrides errors covers these alone; what else the check finds, or no longer finds, is no error.
+    """
     if approval.verdict_hash == verdict.content_hash:
         return None
-    return _other_bound(approval, verdict) or (
-        "The check has other findings or rules than the approved one, or a simulation was added or is gone"
-    )
+    why = _other_bound(approval, verdict)
+    if why is not None:
+        return why
+    if approval.override is None:
+        return OTHER_VERDICT
+    error = approval.override.new_error(verdict)
+    return None if error is None else f"The check has a new error, of the rule “{error.rule}”"
 
 
 def _other_bound(approval: Approval, verdict: Verdict) -> str | None:

@@ -362,7 +362,20 @@ class GaitService:
         return self.open_gaits.put(replace(open_gait, approval=approval, revoked=None), version, record)
 
     def on_simulated(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
-        """Revokes verdict and approval of each open gait that was simulated since; returns these gaits."""
+        """Revokes verdict and approval of each open gait that was simulated since; returns these gaits.
+
+        An approval that overrides errors stays where the simulation adds no error.
+        """
         checked = self.open_gaits.all()
         touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
-        return tuple(self.open_gaits.put(gait.unapproved("It was simulated since")) for gait in touched)
+        return tuple(self.open_gaits.put(self._simulated_since(gait)) for gait in touched)
+
+    def _simulated_since(self, open_gait: OpenGait) -> OpenGait:
+        approval = open_gait.approval
+        if approval is None or approval.override is None:
+            return open_gait.unapproved("It was simulated since")
+        plan = self.plan(open_gait.id)
+        confirmed = open_gait.confirmed(plan, self._verdict_of)
+        if confirmed.approval is None:
+            return confirmed
+        return replace(confirmed, verdict=self._verdict_of(plan, open_gait.gait))

@@ -1,6 +1,6 @@
 """Verdicts and approvals as JSON."""
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from app.common.json import Json
 from core.findings import Approval, Verdict
@@ -8,9 +8,24 @@ from core.findings import Approval, Verdict
 
 def verdict_view(verdict: Verdict) -> Json:
     """A verdict with its findings, errors first; indices count from 0."""
-    return {**asdict(verdict), "passed": verdict.passed, "hash": verdict.content_hash}
+    findings = [{**asdict(one), "overridable": one.is_overridable} for one in verdict.findings]
+    judged = {"findings": findings, "passed": verdict.passed, "hash": verdict.content_hash}
+    return {**asdict(replace(verdict, findings=())), **judged}
 
 
 def approval_view(approval: Approval) -> Json:
     """An approval."""
     return asdict(approval)
+
+
+def override_view(approval: Approval) -> Json | None:
+    """Who approved in spite of errors of which rules, and why; None where no error stood."""
+    override = approval.override
+    if override is None:
+        return None
+    return {"rules": list(override.rules), "reason": override.reason, "by": approval.by}
+
+
+def override_words(view: Json) -> str:
+    """An override's view in a line."""
+    return f"{', '.join(view['rules'])}, by {view['by']}: {' '.join(view['reason'].split())}"

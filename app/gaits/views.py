@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 
+from app.common.clipped import clipped_content
 from app.common.json import Json, finite
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
@@ -168,6 +169,8 @@ def plan_view(plan: Plan) -> Json:
         "note": plan.note,
         "seconds": plan.seconds,
         "refusal": None if refusal is None else {"sentence": refusal.sentence, "where": refusal.where},
+        "misfit": plan.misfit,
+        "clipped_mm": clipped_content(plan.clipped),
         "times": [],
         "contact": [],
         "body": [],

@@ -24,7 +24,7 @@ from core.pose_gaits.pose_gait import PoseGait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem, missing_support
-from core.recorded.recorded_motion import gait_trajectory
+from core.recorded.recorded_motion import fit_words, gait_motion
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds
 from solver_jobs import MotionResult, SolveStatus
@@ -133,17 +133,20 @@ def _poses_note(poses: PoseGait) -> str:
 
 
 def _recorded_plan(gait: Gait, recording: Recording, model: RobotModel) -> Plan:
-    """The recorded motion, as it stands.
+    """The recorded motion, changed as the document says.
 
     Raises:
         InputError: it cannot be read, or the document says another motion.
     """
-    trajectory = gait_trajectory(gait, recording, model)
+    motion = gait_motion(gait, recording, model)
+    trajectory = motion.trajectory
     slip = stance_slip(trajectory.feet_world, trajectory.contact)
-    note = f"The recorded motion of {recording.file}, as it stands."
+    how = fit_words(recording.fit, motion.clipped)
+    note = f"The recorded motion of {recording.file}, {how or 'as it stands'}."
     if recording.form is RecordingForm.WAYPOINTS:
-        note = f"The waypoints of {recording.file}; standing feet slide up to {slip.max() * 1000:.1f} mm."
-    return Plan(PlanSource.RECORDED, note, model, trajectory, None, None, slip)
+        slides = f"standing feet slide up to {slip.max() * 1000:.1f} mm"
+        note = f"The waypoints of {'; '.join(filter(None, (recording.file, how, slides)))}."
+    return Plan(PlanSource.RECORDED, note, model, trajectory, None, None, slip, clipped=motion.clipped)
 
 
 def _live_plan(problem: MotionProblem, answer: VerifiedResult) -> Plan:

@@ -11,7 +11,8 @@ from app.documents.gait_json import sent_hash
 from app.plans.planned_part import PlannedPart
 from app.plans.verified_result import VerifiedResult
 from core.arrays import Floats
-from core.checks.checked_plan import checked_plan
+from core.checks.beyond_range import beyond_range_plan
+from core.checks.checked_plan import Beyond, checked_plan
 from core.checks.made_plan import MadePlan, is_made, made_plan, other_motion_words
 from core.checks.rules import check_plan
 from core.checks.simulation import Simulated
@@ -24,12 +25,15 @@ from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.motion_in_move import motion_along
 from core.pose_gaits.pose_gait import PoseGait
-from core.robot.kinematics import UnreachableError, free_strokes
+from core.recorded.frame_offsets import frame_offsets
+from core.robot.kinematics import REMEDY, UnreachableError, free_strokes
 from core.robot.model import RobotModel
 from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus
 
+KEEPS = "The step Design has ways to keep the recording."
+"""What helps where a recorded motion leaves the motors' range."""
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
 """One waypoint a sample."""
 
@@ -72,6 +76,8 @@ class Plan:
         made_of: hash of the document that it was made of; None where it is of none.
         poses: of a gait for the robot's clock; adapted ones are not confirmed.
         infeasible: sentences on why a search found no poses; empty where none has failed.
+        clipped: (n, legs, 3) how far each stroke of a recorded motion was beyond the motors' range and was
+            clipped, m; None where strokes are left as they are.
     """
 
     source: PlanSource
@@ -88,11 +94,27 @@ class Plan:
     made_of: str | None = None
     poses: PoseGait | None = None
     infeasible: tuple[str, ...] = ()
+    clipped: Floats | None = None
 
     @property
     def is_draft(self) -> bool:
         """Whether it is only drawn, so that it is never sent."""
         return self.source in (PlanSource.DRAFT, PlanSource.ITERATE, PlanSource.ADAPTED)
+
+    @property
+    def is_out_of_range(self) -> bool:
+        """Whether there is a motion that the motors cannot make."""
+        return self.trajectory is not None and isinstance(self.refusal, UnreachableError)
+
+    @cached_property
+    def misfit(self) -> str | None:
+        """Why a recorded motion does not fit the robot, or seems to be in another frame; else None."""
+        if self.source is not PlanSource.RECORDED or self.trajectory is None:
+            return None
+        offsets = frame_offsets(self.model, self.trajectory)
+        if offsets is not None:
+            return offsets.sentence
+        return None if self.refusal is None else self.refusal.sentence
 
     @cached_property
     def moved(self) -> Trajectory | None:
@@ -214,12 +236,25 @@ def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
     try:
         way = plan_waypoints(plan.model, plan.trajectory, options.merge, options.stop_bound)
     except UnreachableError as unreachable:
-        draft = plan.source is PlanSource.DRAFT
-        return replace(plan, refusal=InputError(plan.note, "timeline") if draft else unreachable)
+        return replace(plan, refusal=_refusal(plan, unreachable))
     sent = replace(plan, way=way)
     if sent.makes_planned or sent.made is None:
         return sent
     return replace(sent, note=f"{sent.note} {other_motion_words(sent.made)}".strip())
+
+
+def _refusal(plan: Plan, unreachable: UnreachableError) -> FootfallError:
+    """Why nothing can be sent, with what helps a plan of this kind."""
+    if plan.source is PlanSource.DRAFT:
+        return InputError(plan.note, "timeline")
+    if plan.source is PlanSource.RECORDED:
+        return unreachable.with_sentence(unreachable.sentence.replace(REMEDY, KEEPS))
+    return unreachable
+
+
+def sending_of(gait: Gait) -> tuple[float, float | None]:
+    """Tolerance, m, and stop bound, s, by which waypoints are merged and cut; poses stay as they are."""
+    return (0.0, None) if gait.poses is not None else (gait.options.merge, gait.options.stop_bound)
 
 
 def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Verdict:
@@ -233,11 +268,15 @@ def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Ve
     Raises:
         CheckError: there is nothing to check.
     """
-    if plan.trajectory is None or plan.way is None:
+    way, beyond = plan.way, Beyond(plan.clipped)
+    if plan.trajectory is not None and plan.is_out_of_range:
+        whole = beyond_range_plan(plan.model, plan.trajectory, *sending_of(gait))
+        way, beyond = whole.way, Beyond(plan.clipped, whole.unreached)
+    if plan.trajectory is None or way is None:
         sentence = "There is no plan to check." if plan.refusal is None else plan.refusal.sentence
         raise CheckError(sentence, "plan")
     is_fresh = plan.made_of is None or plan.made_of == sent_hash(gait)
     checked = checked_plan(
-        gait, plan.model, plan.trajectory, plan.way, is_draft=plan.is_draft, is_fresh=is_fresh
+        gait, plan.model, plan.trajectory, way, is_draft=plan.is_draft, is_fresh=is_fresh, beyond=beyond
     )
     return check_plan(checked, simulated)

@@ -10,9 +10,10 @@ from typing import Protocol
 
 from app.common.json import Json
 from app.gaits.live_plans import LivePlans
-from app.plans.plan import Plan
-from app.remedies.views import Tried, remedy_view
+from app.plans.plan import Plan, PlanSource
+from app.remedies.views import Change, Tried, remedy_view
 from app.simulation.problem import simulation_problem
+from app.simulation.repository import SimulationRepository, SimulationResult, simulation_row
 from core.errors import FootfallError, SimulationCancelledError
 from core.findings import Severity
 from core.gait.gait import Gait
@@ -20,8 +21,8 @@ from core.patterns.problem import PatternProblem, PatternResult
 from core.physics.findings import physics_outcomes
 from core.physics.masses import default_physics
 from core.physics.metrics import report
-from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
+from core.recorded.ways_within import WayWithin, ways_within
 from core.robot.model import load_robot
 from solver_jobs import (
     MOST_REMEDIES,
@@ -75,18 +76,10 @@ class CompletionTier(Protocol):
         """Begins a search."""
 
 
-class PhysicsResult(Protocol):
-    """What came of a simulation."""
-
-    @property
-    def motion(self) -> SimulatedMotion:
-        """Of the parameters as they are."""
-
-
 class PhysicsHandle(Protocol):
     """A simulation under way; `solver_jobs.Simulation` in the studio."""
 
-    def result(self) -> PhysicsResult:
+    def result(self) -> SimulationResult:
         """Waits for its answer."""
 
     def cancel(self) -> None:
@@ -105,28 +98,39 @@ class PhysicsTier(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class RemedyParts:
-    """What a search uses: plans, and what finds, finishes and tries."""
+    """What a search uses: plans, what finds, finishes and tries, and where simulations are kept."""
 
     live: LivePlans
     tier: RemedyTier
     patterns: CompletionTier
     simulator: PhysicsTier
+    simulations: SimulationRepository
+
+
+Rank = tuple[bool, bool, float]
+"""Sort key of a change; smaller is better (see `rank`)."""
 
 
 @dataclass(eq=False)
 class _Offer:
-    """A remedy with its plan, and what physics says of it."""
+    """A change with its plan, and what physics says of it."""
 
-    remedy: Remedy
+    change: Change
     plan: Plan
+    rank: Rank
     tried: Tried | None = None
+
+    @property
+    def is_untried(self) -> bool:
+        """Whether physics can still say something of it."""
+        return self.tried is None and self.plan.way is not None
 
 
 class RemedyRun:
     """A search in threads of its own.
 
     Args:
-        gait: one without a motion, or one that tips.
+        gait: one without a motion or one that tips, or a recorded one that does not fit the robot.
         tips: whether it has a motion and tips.
         parts: what is used.
         show: told of each state as JSON content, and None at the end; from a thread of the run's.
@@ -176,7 +180,12 @@ class RemedyRun:
             self._show(None)
 
     def _search(self) -> None:
-        """The live tier's search."""
+        """The live tier's search, or the ways to keep a recorded motion."""
+        if self._gait.recorded is not None:
+            for way in ways_within(self._gait, self._gait.recorded):
+                self._later(partial(self._kept, way))
+            self._later(partial(self._searched, RemedySearch((), complete=True)))
+            return
         result = self._parts.tier.remedies(
             self._gait,
             lambda remedy: self._later(partial(self._found, remedy)),
@@ -189,12 +198,21 @@ class RemedyRun:
         self._events.put(act)
 
     def _found(self, remedy: Remedy) -> None:
-        """Plans a remedy in full; one that comes again, or makes no plan to send, is not offered."""
-        if any(offer.remedy.gait == remedy.gait for offer in self._offers):
-            return
+        """Plans a remedy in full; one that makes no plan to send is not offered."""
         plan = self._parts.live.plan_with(remedy.gait, remedy.motion)
         if plan.live is not None and plan.live.status is SolveStatus.SOLVED and plan.way is not None:
-            self._offers.append(_Offer(remedy, plan))
+            self._offer(remedy, plan, rank(self._gait, self._model, remedy))
+
+    def _kept(self, way: WayWithin) -> None:
+        """Plans a way to keep a recorded motion; the least change comes first."""
+        plan = self._parts.live.plan(way.gait)
+        if plan.source is PlanSource.RECORDED:
+            self._offer(way, plan, (False, False, len(self._offers)))
+
+    def _offer(self, change: Change, plan: Plan, order: Rank) -> None:
+        """Offers a change; one that comes again is not offered twice."""
+        if not any(offer.change.gait == change.gait for offer in self._offers):
+            self._offers.append(_Offer(change, plan, order))
 
     def _searched(self, result: RemedySearch) -> None:
         self._is_searching, self._is_complete = False, result.complete
@@ -233,9 +251,8 @@ class RemedyRun:
     def _shown(self) -> list[_Offer]:
         """The best offers: what physics refuses comes last."""
 
-        def key(offer: _Offer) -> tuple[bool, tuple[bool, bool, float]]:
-            refused = offer.tried is not None and offer.tried.walks is False
-            return refused, rank(self._gait, self._model, offer.remedy)
+        def key(offer: _Offer) -> tuple[bool, Rank]:
+            return offer.tried is not None and offer.tried.walks is False, offer.rank
 
         return sorted(self._offers, key=key)[:MOST_REMEDIES]
 
@@ -243,7 +260,7 @@ class RemedyRun:
         """Begins to simulate the best offer that was not tried yet, once the search is over."""
         if self._is_searching or self._simulation is not None:
             return
-        offer = next((one for one in self._shown() if one.tried is None), None)
+        offer = next((one for one in self._shown() if one.is_untried), None)
         if offer is None:
             return
         problem = simulation_problem(offer.plan, default_physics(self._model))
@@ -254,7 +271,11 @@ class RemedyRun:
     def _simulated(self, offer: _Offer, problem: SimulationProblem, handle: PhysicsHandle) -> None:
         self._simulation = None
         try:
-            figures = report(problem, handle.result().motion)
+            answer = handle.result()
+            figures = report(problem, answer.motion)
+            if self._gait.recorded is not None:
+                # Of drawings every edit leads to other remedies: they would crowd out what people asked for.
+                self._parts.simulations.keep(simulation_row(offer.plan, problem), problem, answer)
         except SimulationCancelledError:
             offer.tried = Tried(walks=None, sentence="The simulation was cancelled.")
         except FootfallError as error:
@@ -268,9 +289,17 @@ class RemedyRun:
         offers = self._shown()
         is_over = self._is_complete and self._completion is None
         return {
-            "remedies": [remedy_view(one.remedy, one.plan, one.tried) for one in offers],
+            "remedies": [remedy_view(one.change, one.plan, one.tried) for one in offers],
             "searching": self._is_searching,
-            "trying": any(one.tried is None for one in offers) or self._completion is not None,
+            "trying": any(one.is_untried for one in offers) or self._completion is not None,
             "complete": self._is_complete,
-            "sentence": nothing_words(self._gait) if is_over and not offers else "",
+            "sentence": self._nothing_words() if is_over and not offers else "",
         }
+
+    def _nothing_words(self) -> str:
+        if self._gait.recorded is None:
+            return nothing_words(self._gait)
+        return (
+            "Neither clipping nor raising, lowering or scaling brings this motion within the motors' range. "
+            "Record it anew, or press Optimise, which computes another motion."
+        )

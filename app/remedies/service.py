@@ -30,14 +30,15 @@ class RemedyService:
         """Begins a search.
 
         Args:
-            gait: a drawing.
+            gait: a drawing, or a gait with a recorded motion.
             show: told of each state as JSON content, and None at the end; from another thread.
             tips: whether physics said that the gait tips; then it gets remedies though it has a motion.
 
         Returns:
             What ends the search.
         """
-        is_stuck = lacks_motion(gait, self._parts.live.plan(gait))
+        plan = self._parts.live.plan(gait)
+        is_stuck = lacks_motion(gait, plan) or (plan.misfit is not None)
         if not is_stuck and not (tips and is_drawing(gait)):
             show(NOTHING)
             show(None)

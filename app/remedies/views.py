@@ -1,12 +1,37 @@
 """Remedies as JSON content."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from app.common.json import Json, finite
 from app.documents.gait_json import gait_content
 from app.plans.plan import Plan
 from app.plans.robot_times import robot_times
-from solver_jobs import Remedy
+from core.gait.gait import Gait
+
+
+class Change(Protocol):
+    """A changed gait with what is said of it; a `Remedy`, or a way to keep a recorded motion."""
+
+    @property
+    def kind(self) -> str:
+        """What is changed."""
+
+    @property
+    def label(self) -> str:
+        """Text of its button."""
+
+    @property
+    def sentence(self) -> str:
+        """What it does, and what it costs."""
+
+    @property
+    def gait(self) -> Gait:
+        """The changed gait."""
+
+    @property
+    def caution(self) -> str:
+        """What is to be said against it; empty where nothing is."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +47,7 @@ class Tried:
     sentence: str = ""
 
 
-def remedy_view(remedy: Remedy, plan: Plan, tried: Tried | None) -> Json:
+def remedy_view(remedy: Change, plan: Plan, tried: Tried | None) -> Json:
     """A change that makes a gait walk, SI.
 
     Args:
@@ -32,7 +57,7 @@ def remedy_view(remedy: Remedy, plan: Plan, tried: Tried | None) -> Json:
     """
     times = robot_times(plan)
     content: Json = {
-        "kind": remedy.kind.value,
+        "kind": str(remedy.kind),
         "label": remedy.label,
         "sentence": remedy.sentence,
         "caution": remedy.caution,

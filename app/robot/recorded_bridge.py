@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from app.bridge.bridge import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
 from app.common.json import Json
+from app.gaits.verdict_views import override_view
 from app.robot.run_recorder import RunRecorder
 from app.robot.views import RUNNING, RunOrigin, run_end
 from app.runs.recovery import end_abandoned
@@ -95,6 +96,8 @@ class RecordedBridge:
             "state": "running",
             "sentence": "",
         }
+        if (override := override_view(run_plan.approval)) is not None:
+            record["override"] = override
         changes = self.bridge.transitions
         self._recorder.begin(record, kept.plan, after=changes[-1].number if changes else 0)
         self._record, self.origin = record, origin

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from app.common.json import Json
 from app.common.table_cell import table_cell
 from app.common.version import VERSION
+from app.gaits.verdict_views import override_words
 from app.runs.record import RunRecord
 from core.wire.messages import MOTORS
 
@@ -53,15 +54,18 @@ _Message = tuple[float, str, Json]
 def run_csv(record: RunRecord) -> str:
     """Time in s since the run began, the robot's state, commanded and measured strokes in mm.
 
-    What was commanded is empty before the first message.
+    What was commanded is empty before the first message. A run that was approved in spite of errors has a
+    last column that says so.
     """
     names = [f"{kind}_h{motor + 1}" for kind in ("commanded", "measured") for motor in range(MOTORS)]
-    lines = [",".join(["t", "state", *names])]
+    override = record.content.get("override")
+    spite = [] if override is None else ['"{}"'.format(override_words(override).replace('"', '""'))]
+    lines = [",".join(["t", "state", *names, *(["approved_in_spite_of"] if spite else [])])]
     series = record.series
     rows = zip(series.times, record.states_told, record.commanded_mm, series.measured_mm, strict=True)
     for time, state, commanded, measured in rows:
         numbers = ["" if math.isnan(value) else f"{value:.4f}" for value in (*commanded, *measured)]
-        lines.append(",".join([f"{time:.4f}", table_cell(state), *numbers]))
+        lines.append(",".join([f"{time:.4f}", table_cell(state), *numbers, *spite]))
     return "\n".join(lines) + "\n"
 
 
@@ -88,6 +92,8 @@ def run_mcap(record: RunRecord) -> bytes:
             data=json.dumps({"time": round(time, 6), **content}, allow_nan=False).encode(),
         )
     words = {key: str(value) for key, value in record.content.items()}
+    if (override := record.content.get("override")) is not None:
+        words["override"] = override_words(override)
     writer.add_metadata("run", {**words, "note": record.row.note})
     writer.finish()  # type: ignore[no-untyped-call]
     return stream.getvalue()

@@ -109,6 +109,7 @@ class RunService:
             "reached": content.get("reached"),
             "count": content.get("count"),
             "left_out": content.get("left_out", 0),
+            "override": content.get("override"),
             "note": row.note,
             "deleted": row.deleted is not None,
             "errors": self._errors(row),

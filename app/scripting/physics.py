@@ -112,7 +112,7 @@ def simulate(source: Plan | Gait | str | Path | ArrayLike, **options: Any) -> Si
     Args:
         source: a plan, or anything that `footfall.plan` takes, such as an array (lines, legs, 3) of strokes
             in m.
-        options: those of `footfall simulate`: physics, rig, variations, seed.
+        options: those of `footfall simulate`: physics, rig, variations, seed, within_stroke.
 
     Returns:
         The simulation; lengths in m, angles in rad, times in the robot's seconds.
@@ -126,8 +126,10 @@ def simulate(source: Plan | Gait | str | Path | ArrayLike, **options: Any) -> Si
         >>> ff.simulate("fast-c-gait").fell
         False
     """
-    of = plan(source)
-    asked = command_options("simulate", ["plan"], ("robot", "merge", "stop_bound"), **options)
+    of = plan(source, within_stroke=options.pop("within_stroke", None))
+    asked = command_options(
+        "simulate", ["plan"], ("robot", "merge", "stop_bound", "within_stroke"), **options
+    )
     model = of.robot.model
     problem = way_problem(model, of.need_motion(), of.need_way(), physics_set(asked, model), asked.rig)
     with progress_bar("Physics") as tell:

@@ -20,7 +20,7 @@ from app.export.way_files import is_way_file, read_way_file
 from app.gaits.live_plans import is_drawing
 from app.plans.make_plan import make_plan
 from app.plans.plan import Plan as Made
-from app.plans.plan import PlanSource
+from app.plans.plan import PlanSource, sending_of
 from app.scripting.arrays import array_of
 from app.scripting.gaits import Gait, gait
 from app.scripting.options import command_options
@@ -30,12 +30,14 @@ from core.arrays import Floats
 from core.checks.made_plan import other_motion_words
 from core.errors import CheckError, InputError
 from core.gait.gait import Gait as Document
+from core.gait.recording import AS_RECORDED, RecordingFit
 from core.motion.trajectory import Trajectory
+from core.motion.within_stroke import clipped_motion
 from core.pose_gaits.gait_poses import pose_problem, with_poses
 from core.recorded.waypoint_motion import motion_of_waypoints
 from core.robot.model import load_robot
 from core.wire.robot_time import move_estimates
-from core.wire.waypoint_merging import plan_of_knots
+from core.wire.waypoint_merging import plan_of_knots, plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus, solve_live
 
@@ -113,7 +115,9 @@ def _of_made(of: Gait, made: Made, status: str, figures: dict[str, Any]) -> Plan
     if made.made is not None and not made.makes_planned:
         told = (other_motion_words(made.made),)
         status = SolveStatus.FAILED.value if status == SolveStatus.SOLVED.value else status
-    return Plan(status, robot, of, told, figures, made.trajectory, made.way)
+    if made.refusal is not None:
+        told = (made.refusal.sentence,)
+    return Plan(status, robot, of, told, figures, made.trajectory, made.way, made.clipped)
 
 
 def _failure(made: Made) -> SolveStatus:
@@ -184,7 +188,11 @@ def frontier(source: str | Path | Gait, **options: Any) -> dict[str, Any]:
 
 
 def plan(
-    source: str | Path | Gait | Plan | ArrayLike, *, method: str = "nlp", robot: str | None = None
+    source: str | Path | Gait | Plan | ArrayLike,
+    *,
+    method: str = "nlp",
+    robot: str | None = None,
+    within_stroke: str | None = None,
 ) -> Plan:
     """The plan of anything: a gait, a table, a sequence, a recorded motion, a file, or strokes of your own.
 
@@ -193,6 +201,7 @@ def plan(
             strokes in m.
         method: what makes the motion of a drawn gait: `nlp` or `live`.
         robot: of waypoints without a companion, and of an array (the DeltaWalker where None).
+        within_stroke: `clip` keeps strokes beyond the motors' range at its end; None refuses them.
 
     Returns:
         The plan; `status` is `given` where nothing had to be solved.
@@ -207,15 +216,20 @@ def plan(
         >>> ff.plan(strokes).waypoints.shape
         (5, 4, 3)
     """
+    fit = RecordingFit(
+        within_stroke=command_options("check", [""], within_stroke=within_stroke).within_stroke
+    )
     if isinstance(source, Plan):
         if robot is not None or method != Method.NLP:
             raise InputError("A plan is made already; robot and method are for gaits.", "source")
-        return source
+        return source if fit == AS_RECORDED else _clipped(source)
     if not isinstance(source, str | Path | Gait):
-        return _of_strokes(array_of(source, _shape(robot), "strokes", "m"), robot)
+        given = _of_strokes(array_of(source, _shape(robot), "strokes", "m"), robot)
+        return given if fit == AS_RECORDED else _clipped(given)
     if not isinstance(source, Gait) and Path(source).suffix == ".csv" and is_way_file(Path(source)):
         read = read_way_file(Path(source), robot)
-        return _of_waypoints(Robot(read.model), read.waypoints, read.motion)
+        given = _of_waypoints(Robot(read.model), read.waypoints, read.motion)
+        return given if fit == AS_RECORDED else _clipped(given)
     of = gait(source)
     if robot is not None:
         of = of.changed(robot=robot)
@@ -223,8 +237,23 @@ def plan(
     if is_drawing(of.document) and not of.document.sequence:
         return _optimised(of, chosen, of.id or of.name)
     made = planned_gait(of.document, chosen)
-    given = (PlanSource.MANUAL, PlanSource.RECORDED)
-    return _of_made(of, made, "given" if made.source in given else SolveStatus.SOLVED.value, {})
+    is_given = made.source in (PlanSource.MANUAL, PlanSource.RECORDED)
+    planned = _of_made(of, made, "given" if is_given else SolveStatus.SOLVED.value, {})
+    return planned if fit == AS_RECORDED else _clipped(planned)
+
+
+def _clipped(of: Plan) -> Plan:
+    """The plan with strokes beyond the motors' range at its end.
+
+    Raises:
+        InputError: it is too far beyond the range.
+    """
+    kept = clipped_motion(of.robot.model, of.need_motion())
+    if not kept.clipped.any():
+        return of
+    sending = (0.0, None) if of.gait is None else sending_of(of.gait.document)
+    way = plan_waypoints(of.robot.model, kept.trajectory, *sending)
+    return replace(of, trajectory=kept.trajectory, way=way, clipped=kept.clipped, explanation=())
 
 
 def _shape(robot: str | None) -> tuple[int, int]:

@@ -52,7 +52,9 @@ class Plan:
         explanation: sentences on why there is no motion, or why the robot makes another one; else empty.
         figures: what the command of that name prints with `--json`, in SI.
         trajectory: the motion in full; None where there is none.
-        way: what would be sent; None where there is no motion.
+        way: what would be sent; None where there is no motion, or the motors cannot make it.
+        clipped: (n, legs, 3) how far each stroke was beyond the motors' range and was clipped, m; None where
+            strokes are left as they are.
 
     Raises:
         InfeasibleError: its arrays, where the robot cannot do what is asked.
@@ -72,6 +74,7 @@ class Plan:
     figures: dict[str, Any] = field(default_factory=dict)
     trajectory: Trajectory | None = None
     way: WaypointPlan | None = None
+    clipped: Floats | None = None
 
     def need_motion(self) -> Trajectory:
         """The motion.
@@ -90,7 +93,12 @@ class Plan:
         """What would be sent (see `need_motion`)."""
         self.need_motion()
         if self.way is None:
-            raise CheckError("This plan has no waypoints: a foot is out of reach.", "plan")
+            why = " ".join(self.explanation) or "A foot is out of reach."
+            raise CheckError(
+                f'This plan has no waypoints. {why} footfall.plan(…, within_stroke="clip") keeps its strokes '
+                "within the motors' range.",
+                "plan",
+            )
         return self.way
 
     @property

@@ -34,7 +34,7 @@ from app.store.gait_files import default_data_folder
 from app.store.run_store import RunStore
 from core.arrays import Floats
 from core.errors import CheckError, InputError, RobotError, StateError
-from core.findings import Severity, Verdict, approve
+from core.findings import Verdict, approve, override_all
 from core.names import is_visible
 from core.runs.pose import RanPlan
 from core.wire.robot_time import move_estimates
@@ -114,6 +114,7 @@ def send(
     by: str,
     data: str | Path | None = None,
     clear_stop: bool = False,
+    override: str | None = None,
 ) -> Run:
     """Checks and approves a plan in a person's name, and streams it to the robot as a run that is kept.
 
@@ -128,13 +129,16 @@ def send(
         by: the name of the person who approves it, warnings included.
         data: the data folder, where the run is kept; the usual one where None.
         clear_stop: whether to lift a stop that the robot holds from another program.
+        override: the reason why the robot may move in spite of the errors that stand; None where none does.
 
     Returns:
         The run; strokes in m, times in s.
 
     Raises:
-        InputError: no name was given, or the plan cannot be read.
-        InfeasibleError, CheckError: the plan has no motion, or an error stands; nothing was sent.
+        InputError: no name was given, the plan cannot be read, or the override has no reason, is of a rule
+            that may not be overridden, or finds no error.
+        InfeasibleError, CheckError: the plan has no motion, or an error stands that is not overridden;
+            nothing was sent.
         RobotError: no robot answers, or the run did not reach its end; it is kept all the same.
         StateError: it was not called in the main thread, or the robot cannot be armed.
         StorageError: the data folder takes no record of the run.
@@ -153,10 +157,13 @@ def send(
     if not of.robot.model.wired:
         raise InputError(f"{of.robot.title} has no cable here; only the DeltaWalker can be sent to.", "robot")
     verdict, way = verdict_on(of), of.need_way()
-    _require_fit(verdict)
-    run_plan = RunPlan(
-        way.waypoints, approve(verdict, by, datetime.now(UTC), accept_warnings=True), way.hold_ok
-    )
+    if override is None:
+        _require_fit(verdict)
+    elif not isinstance(override, str):
+        raise InputError("override must be the reason why the robot may move in spite of errors.", "override")
+    request = None if override is None else override_all(verdict, override)
+    approval = approve(verdict, by, datetime.now(UTC), accept_warnings=True, override=request)
+    run_plan = RunPlan(way.waypoints, approval, way.hold_ok)
     folder = (default_data_folder() if data is None else Path(data)).expanduser()
     with progress_bar("Run") as tell, _handlers_kept():
         bar = _Bar(move_estimates(way.waypoints), tell)
@@ -170,7 +177,7 @@ def send(
 
 
 def _require_fit(verdict: Verdict) -> None:
-    errors = [one for one in verdict.findings if one.severity is Severity.ERROR]
+    errors = verdict.errors
     if errors:
         more = f" {len(errors) - 1} more errors stand." if len(errors) > 1 else ""
         raise CheckError(f"Not fit to send: {errors[0].sentence}{more} Nothing was sent.", errors[0].rule)

@@ -14,7 +14,7 @@ from app.scripting.html import Cell, paragraph, table
 from app.scripting.planning import plan
 from app.scripting.plans import Plan
 from app.simulation.physics_check import checked_in_physics
-from core.checks.checked_plan import CheckedPlan, checked_plan
+from core.checks.checked_plan import Beyond, CheckedPlan, checked_plan
 from core.findings import Verdict as Content
 
 
@@ -63,12 +63,13 @@ class Verdict:
         return paragraph([said]) + (table(["", "rule", "what was found"], rows) if rows else "")
 
 
-def check(source: Plan | Gait | str | Path | ArrayLike) -> Verdict:
+def check(source: Plan | Gait | str | Path | ArrayLike, *, within_stroke: str | None = None) -> Verdict:
     """Checks what would be sent of a plan by every rule.
 
     Args:
         source: a plan, or anything that `footfall.plan` takes, such as an array (lines, legs, 3) of strokes
             in m.
+        within_stroke: as for `footfall.plan`.
 
     Returns:
         The verdict; its margins are in SI.
@@ -83,12 +84,12 @@ def check(source: Plan | Gait | str | Path | ArrayLike) -> Verdict:
         >>> ff.check(ff.optimise("walk", method="live")).passed
         True
     """
-    return Verdict(verdict_on(plan(source)))
+    return Verdict(verdict_on(plan(source, within_stroke=within_stroke)))
 
 
 def verdict_on(of: Plan) -> Content:
     """The verdict on a plan: against its document, where it has one."""
-    motion, way = of.need_motion(), of.need_way()
+    motion, way, beyond = of.need_motion(), of.need_way(), Beyond(of.clipped)
     if of.gait is None:
-        return checked_in_physics(CheckedPlan(of.robot.model, motion, way.waypoints, way=way))
-    return checked_in_physics(checked_plan(of.gait.document, of.robot.model, motion, way))
+        return checked_in_physics(CheckedPlan(of.robot.model, motion, way.waypoints, way=way, beyond=beyond))
+    return checked_in_physics(checked_plan(of.gait.document, of.robot.model, motion, way, beyond=beyond))

@@ -5,54 +5,34 @@ Only the command queue's thread calls this; a thread a simulation waits for its 
 
 import logging
 import threading
-import time
 import uuid
-from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Protocol
 
-from app.common.json import Json, finite
-from app.common.version import VERSION
+from app.common.json import Json
 from app.gaits.open_gait import OpenGait
 from app.jobs.job_tracker import JobTracker
 from app.jobs.repository import JobRepository
 from app.plans.plan import Plan
 from app.simulation.problem import (
-    physics_content,
-    report_content,
     report_figures,
     report_from_content,
     simulation_key,
     simulation_problem,
 )
-from app.simulation.repository import SimulationRepository
-from app.simulation.view import motion_content, report_sentence, variations_content
+from app.simulation.repository import SimulationRepository, SimulationResult, simulation_row
+from app.simulation.view import report_sentence
 from app.store.simulation_store import SimulationRow
 from core.errors import FootfallError, StateError, StorageError
-from core.physics.findings import physics_outcomes
 from core.physics.masses import part_masses
-from core.physics.metrics import report
-from core.physics.motion import SimulatedMotion
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
-from core.physics.variations import VariedRun
 
 _log = logging.getLogger(__name__)
 
 KIND = "simulate"
 """What pages and scripts call these jobs."""
-
-
-class SimulationResult(Protocol):
-    """What came of a simulation."""
-
-    @property
-    def motion(self) -> SimulatedMotion:
-        """Of the parameters as they are."""
-
-    @property
-    def runs(self) -> Sequence[VariedRun]:
-        """Of their variations."""
 
 
 class SimulationHandle(Protocol):
@@ -84,7 +64,6 @@ class _Work:
 
     job: Json
     row: SimulationRow
-    physics: PhysicsSet
     problem: SimulationProblem
     handle: SimulationHandle
 
@@ -140,8 +119,8 @@ class SimulationService:
         except StorageError:
             handle.cancel()
             raise
-        row = SimulationRow(open_gait.id, key, problem.waypoints.content_hash, physics.name, time.time())
-        work = _Work(job, row, physics, problem, handle)
+        row = simulation_row(plan, problem, open_gait.id)
+        work = _Work(job, row, problem, handle)
         self._running.begin(job_id, handle)
         thread = threading.Thread(target=self._await, args=(work,), name=f"simulation-{job_id}", daemon=True)
         self._waiting = [one for one in self._waiting if one.is_alive()] + [thread]
@@ -161,8 +140,7 @@ class SimulationService:
         """Waits for the answer, in a thread of its own, and hands it to the command queue."""
         end: Json
         try:
-            content = _content(work, work.handle.result())
-            self._kept.put(work.row, content)
+            content = self._kept.keep(work.row, work.problem, work.handle.result())
             end = {"state": "done", "sentence": report_sentence(content["report"]), "share": 1.0}
             end["result"] = report_figures(report_from_content(content["report"]))
         except FootfallError as error:
@@ -171,24 +149,3 @@ class SimulationService:
             _log.exception("A simulation broke off.")
             end = {"state": "failed", "sentence": f"The simulation broke off: {error!r}."}
         self._running.end(work.job["id"], end)
-
-
-def _content(work: _Work, answer: SimulationResult) -> Json:
-    """Everything that is kept of a simulation."""
-    figures = report(work.problem, answer.motion)
-    outcomes = physics_outcomes(figures, work.problem)
-    content: Json = {
-        "key": work.row.key,
-        "gait": work.row.gait,
-        "robot": work.problem.model.name,
-        "waypoints_hash": work.row.waypoints,
-        "program": VERSION,
-        "physics": physics_content(work.physics),
-        "made": work.row.made,
-        "seconds": answer.motion.seconds,
-        "report": report_content(figures),
-        "findings": finite([asdict(finding) for one in outcomes for finding in one.findings]),
-        "variations": variations_content(answer.runs) if answer.runs else None,
-        "motion": motion_content(work.problem, answer.motion, figures),
-    }
-    return content

@@ -17,7 +17,9 @@ import { openStep } from "./steps/steps.js";
 import { selectGait } from "./shell/gait_list.js";
 import { mountVersions } from "./shell/versions.js";
 
-/** The dialog for the fastest gait, loaded when it is first opened: from the menu New and from Jobs. */
+const ROTATE = "Make a gait that turns the robot on the spot, by as many degrees as you want";
+
+/** The dialogs for a rotation and for the fastest gait, loaded when first opened: by New, one by Jobs too. */
 function mountFastest(store, gaitTools) {
   const open = attempt(async (job = null) => {
     const { askFastest } = await import("./fastest/fastest.js");
@@ -26,9 +28,15 @@ function mountFastest(store, gaitTools) {
     await selectGait(store, id);
     openStep("design");
   });
+  const rotate = attempt(async () => {
+    const { askRotation } = await import("./fastest/rotate.js");
+    const id = await askRotation(store);
+    if (id) await selectGait(store, id);
+  });
   const help =
     "Make a gait that is as fast as the robot's firmware allows. "
     + "The dialog shows the robot's speed for each option";
+  gaitTools.addNew({ text: "Rotate…", help: ROTATE, act: rotate });
   gaitTools.addNew({ text: "Fastest gait…", help, act: () => open() });
   store.watch(
     ({ fastestWanted }) => [fastestWanted],

@@ -154,7 +154,7 @@ class Studio:
         self.atlases = self._register(
             AtlasService(library, self.job_repository, self.commands.tell, shown_job)
         )
-        parts = RemedyParts(self.live, self._solver, self._pattern_solvers[0], simulator)
+        parts = RemedyParts(self.live, self._solver, self._pattern_solvers[0], simulator, self.simulations)
         self.remedies = self._register(RemedyService(parts))
         self._trial_simulations = self._register(
             TrialSimulations(TrialReferenceStore(self._database), simulator)

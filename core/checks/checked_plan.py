@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Bools, Floats
 from core.gait.gait import Gait, travel_world
 from core.gait.held_feet import HeldFeet
 from core.motion.trajectory import Trajectory
@@ -37,6 +37,23 @@ class Asked:
 
 
 @dataclass(frozen=True, eq=False)
+class Beyond:
+    """Where a motion leaves the motors' range, beside the strokes themselves.
+
+    Args:
+        clipped: (n, legs, 3) how far each stroke was beyond the range before it was clipped, m; None where
+            none was clipped.
+        unreached: (n, legs) feet for which no rod is long enough; None where every rod is.
+    """
+
+    clipped: Floats | None = None
+    unreached: Bools | None = None
+
+
+WITHIN = Beyond()
+
+
+@dataclass(frozen=True, eq=False)
 class CheckedPlan:
     """A plan with everything that the rules check.
 
@@ -50,6 +67,7 @@ class CheckedPlan:
             is not looked at.
         asked: what else the document asks for.
         is_fresh: whether the plan was made from the document as it is.
+        beyond: where the motion leaves the motors' range.
     """
 
     model: RobotModel
@@ -60,6 +78,7 @@ class CheckedPlan:
     way: WaypointPlan | None = None
     asked: Asked = field(default_factory=Asked)
     is_fresh: bool = True
+    beyond: Beyond = WITHIN
 
     @property
     def knots(self) -> Waypoints:
@@ -75,6 +94,7 @@ def checked_plan(
     *,
     is_draft: bool = False,
     is_fresh: bool = True,
+    beyond: Beyond = WITHIN,
 ) -> CheckedPlan:
     """A gait's plan beside everything that its document asks.
 
@@ -85,10 +105,11 @@ def checked_plan(
         way: what would be sent.
         is_draft: whether the plan was only drawn.
         is_fresh: whether the plan was made from this document.
+        beyond: where the motion leaves the motors' range.
     """
     travel = travel_world(gait, model)
     return CheckedPlan(
-        model, trajectory, way.waypoints, travel, is_draft, way, asked_of(gait), is_fresh=is_fresh
+        model, trajectory, way.waypoints, travel, is_draft, way, asked_of(gait), is_fresh, beyond
     )
 
 

@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import SAME, Floats, first_highest, first_place
-from core.checks.checked_plan import CheckedPlan, knot_place
-from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
+from core.arrays import SAME, Bools, Floats, first_highest, first_place, stretches
+from core.checks.checked_plan import WITHIN, Beyond, CheckedPlan, knot_place
+from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
 from core.motion.speeds import motor_accelerations, motor_speeds
+from core.motion.within_stroke import clipped_words
 from core.robot.model import RobotModel
 from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
 from core.wire.robot_time import ARRIVAL_THRESHOLD, ARRIVED, deafness, largest_moves, ramp_time
@@ -20,30 +21,70 @@ DEAF_SLACK = ramp_time(SAME)
 """Excess over the limit that is no finding, s: cutting long moves leaves as much."""
 
 
-def check_strokes(model: RobotModel, waypoints: Waypoints, times: Floats | None = None) -> Outcome:
-    """Every motor stays within its range.
+def check_strokes(
+    model: RobotModel, waypoints: Waypoints, times: Floats | None = None, beyond: Beyond = WITHIN
+) -> Outcome:
+    """Every motor stays within its range; strokes that were clipped for it are a warning.
 
     Args:
         model: the robot.
         waypoints: one a knot, or what is sent.
         times: (count,) the plan's time of each, s; None where it is not known.
+        beyond: where the motion leaves the range.
     """
     lower, upper = model.stroke.lower, model.stroke.upper
     room = np.minimum(waypoints.strokes - lower, upper - waypoints.strokes)
+    findings = [*_clipped(beyond.clipped, times), *_unreached(beyond.unreached, times)]
+    for foot in range(room.shape[1]):
+        for first, last in stretches(np.asarray(room[:, foot].min(axis=-1) < -TOLERANCE)):
+            findings.append(_beyond_range(model, waypoints, times, foot, (first, last)))
+    return Outcome(RuleMargin("stroke", float(room.min()), "m"), tuple(findings))
+
+
+def _beyond_range(
+    model: RobotModel, waypoints: Waypoints, times: Floats | None, foot: int, samples: tuple[int, int]
+) -> Finding:
+    """A foot's motors leave their range for some samples; it names the motor that goes furthest beyond."""
+    lower, upper = model.stroke.lower, model.stroke.upper
+    first, last = samples
+    strokes = waypoints.strokes[first : last + 1, foot]
+    sample, actuator = first_place(np.maximum(lower - strokes, strokes - upper))
+    value, sample = float(strokes[sample, actuator]), first + sample
+    place: dict[str, Any] = {"sample": sample, "foot": foot, "actuator": actuator}
+    if times is not None:
+        place["time"] = float(times[sample])
+    stretch = "" if first == last else f" (samples {first + 1} to {last + 1})"
+    words = (
+        f"Motor {actuator + 1} of foot {foot + 1} would go to {value * 1000:.2f} mm at sample "
+        f"{sample + 1}{stretch}; its range is {lower * 1000:.1f} to {upper * 1000:.1f} mm."
+    )
+    remedy = "Shorten the step or change the body's height."
+    limit = lower if value < lower else upper
+    return found("stroke", Severity.ERROR, words, remedy, value, limit, **place)
+
+
+def _clipped(clipped: Floats | None, times: Floats | None) -> list[Finding]:
+    if clipped is None or not clipped.any():
+        return []
+    sample, foot, actuator = first_place(clipped)
+    place: dict[str, Any] = {"sample": sample, "foot": foot, "actuator": actuator}
+    if times is not None:
+        place["time"] = float(times[sample])
+    words = f"Strokes beyond the motors' range were clipped, {clipped_words(clipped)}."
+    remedy = "Raise or lower the body, or make the motion smaller, to keep the whole motion."
+    return [found("stroke", Severity.WARNING, words, remedy, float(clipped.max()), 0.0, **place)]
+
+
+def _unreached(unreached: Bools | None, times: Floats | None) -> list[Finding]:
     findings = []
-    for sample, foot, actuator in np.argwhere(room < -TOLERANCE).tolist():
-        value = float(waypoints.strokes[sample, foot, actuator])
-        place: dict[str, Any] = {"sample": sample, "foot": foot, "actuator": actuator}
+    for sample, foot in [] if unreached is None else np.argwhere(unreached).tolist():
+        place: dict[str, Any] = {"sample": sample, "foot": foot}
         if times is not None:
             place["time"] = float(times[sample])
-        words = (
-            f"Motor {actuator + 1} of foot {foot + 1} would go to {value * 1000:.2f} mm at sample "
-            f"{sample + 1}; its range is {lower * 1000:.1f} to {upper * 1000:.1f} mm."
-        )
+        words = f"No rod is long enough for foot {foot + 1} at sample {sample + 1}."
         remedy = "Shorten the step or change the body's height."
-        limit = lower if value < lower else upper
-        findings.append(found("stroke", Severity.ERROR, words, remedy, value, limit, **place))
-    return Outcome(RuleMargin("stroke", float(room.min()), "m"), tuple(findings))
+        findings.append(found("stroke", Severity.ERROR, words, remedy, None, 0.0, **place))
+    return findings
 
 
 def check_deafness(waypoints: Waypoints, kept: Sequence[int] | None = None) -> Outcome:

@@ -1,7 +1,8 @@
 """Every rule that a plan must keep before a person may approve it, in one list.
 
 The rules, by kind: `motors`, `balance` and `ground`, or `coupling` where motors share actuators, `shoes`,
-`arms`, `document`, `path` for the way between waypoints, and `simulation` for what the physics finds.
+`arms`, `document`, `path` for the way between waypoints, and `simulation` for what the physics finds, by
+which `rocking` judges a robot that rocks onto a foot.
 """
 
 from collections.abc import Sequence
@@ -9,7 +10,7 @@ from dataclasses import replace
 
 from core.checks.arms import check_arms, check_arms_of_waypoints
 from core.checks.balance import check_balance, check_standing_balance
-from core.checks.checked_plan import CheckedPlan
+from core.checks.checked_plan import WITHIN, Beyond, CheckedPlan
 from core.checks.coupling import check_made, check_made_waypoints
 from core.checks.document import check_document, check_origin
 from core.checks.ground import check_clearance, check_contact, check_slip
@@ -24,6 +25,7 @@ from core.checks.motors import (
     still_note,
 )
 from core.checks.path import SLACK_NOTE, check_path, send_costs
+from core.checks.rocking import rocking_judged
 from core.checks.shoes import check_shoes, check_shoes_of_waypoints
 from core.checks.simulation import Simulated, check_simulation, simulation_note
 from core.findings import Finding, Outcome, Severity, Verdict
@@ -40,7 +42,7 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
     """
     kept = None if plan.way is None else plan.way.kept
     outcomes = [
-        check_strokes(plan.model, plan.knots, plan.trajectory.times),
+        check_strokes(plan.model, plan.knots, plan.trajectory.times, plan.beyond),
         check_deafness(plan.waypoints, kept),
         check_durations(plan.waypoints, kept),
         *_motion_rules(plan, is_simulated=simulated is not None),
@@ -54,8 +56,9 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
     if plan.way is not None:
         outcomes += check_path(plan.model, plan.trajectory, plan.way)
     outcomes += check_simulation(simulated)
-    findings = [finding for outcome in outcomes for finding in outcome.findings]
-    verdict = _verdict(plan.model, plan.waypoints, [*findings, *check_origin(plan)], outcomes)
+    found = [finding for outcome in outcomes for finding in outcome.findings]
+    findings = rocking_judged([*found, *check_origin(plan)], plan.model, simulated)
+    verdict = _verdict(plan.model, plan.waypoints, findings, outcomes)
     if simulated is not None:
         verdict = replace(verdict, simulation=simulated.key)
     notes = [acceleration_note(plan), simulation_note(simulated)]
@@ -73,18 +76,24 @@ def _motion_rules(plan: CheckedPlan, *, is_simulated: bool) -> list[Outcome]:
     return [check_balance(plan), check_contact(plan), check_clearance(plan), check_slip(plan)]
 
 
-def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
-    """What waypoints alone can show: range, durations, deafness; by kinematics balance, shoes, arms."""
+def check_waypoints(model: RobotModel, waypoints: Waypoints, beyond: Beyond = WITHIN) -> Verdict:
+    """What waypoints alone can show: range, durations, deafness; by kinematics balance, shoes, arms.
+
+    Args:
+        model: the robot.
+        waypoints: what would be sent.
+        beyond: where strokes left the range before they were clipped.
+    """
     outcomes = [
-        check_strokes(model, waypoints),
+        check_strokes(model, waypoints, beyond=beyond),
         check_deafness(waypoints),
         check_durations(waypoints),
         *_standing_rules(model, waypoints),
         *check_shoes_of_waypoints(model, waypoints),
         *check_arms_of_waypoints(model, waypoints),
     ]
-    findings = [finding for outcome in outcomes for finding in outcome.findings]
-    return _verdict(model, waypoints, findings, outcomes)
+    found = [finding for outcome in outcomes for finding in outcome.findings]
+    return _verdict(model, waypoints, rocking_judged(found, model), outcomes)
 
 
 def _standing_rules(model: RobotModel, waypoints: Waypoints) -> list[Outcome]:

@@ -12,6 +12,7 @@ from core.gait.gait import Gait, SequencePart
 from core.gait.held_feet import feet_words
 from core.gait.options import GaitOptions
 from core.gait.poses import POSE_LIMITS, Poses
+from core.gait.recording import AS_RECORDED, RecordingFit
 from core.motion.timeline_difference import timeline_difference
 from core.robot.model import load_robot
 from core.segments.segment_difference import table_difference
@@ -84,8 +85,28 @@ def _head(before: Gait, after: Gait) -> list[str]:
         sentences += _change("Notes", *_texts(before.notes, after.notes)) or ["Notes reworded"]
     if before.recorded != after.recorded:
         old, new = (f"motion of {g.recorded.file}" if g.recorded else "none" for g in (before, after))
-        sentences += _change("Recorded motion:", old, new) or ["Recorded motion replaced"]
+        fits = (g.recorded.fit if g.recorded else AS_RECORDED for g in (before, after))
+        sentences += _change("Recorded motion:", old, new) or _fit(*fits) or ["Recorded motion replaced"]
     return sentences
+
+
+def _fit(before: RecordingFit, after: RecordingFit) -> list[str]:
+    """How the recorded motion is changed in another way."""
+
+    def beyond(fit: RecordingFit) -> str:
+        return "refused" if fit.within_stroke is None else "clipped"
+
+    heights = (
+        _change(
+            f"Recorded {part} raised by", *(f"{getattr(fit, part) * 1000:g} mm" for fit in (before, after))
+        )
+        for part in ("body", "feet")
+    )
+    return [
+        *(sentence for sentences in heights for sentence in sentences),
+        *_change("Recorded motion scaled to", *(f"{fit.scale * 100:g} %" for fit in (before, after))),
+        *_change("Strokes beyond the range:", beyond(before), beyond(after)),
+    ]
 
 
 def _poses(before: Poses | None, after: Poses | None) -> tuple[str, ...]:

@@ -10,6 +10,10 @@ MOST_FILE_NAME = 200
 """Characters that the name of a recorded motion's file may have."""
 MOST_ASSUMPTIONS, MOST_ASSUMPTION = 20, 500
 """How many assumptions a recording may name, and the characters of each."""
+MOST_RAISED = 0.05
+"""A recorded motion's body and feet are raised or lowered by no more, m."""
+LEAST_SCALE, MOST_SCALE = 0.1, 2.0
+"""Bounds of a recorded motion's scale."""
 
 
 class RecordingForm(StrEnum):
@@ -19,6 +23,48 @@ class RecordingForm(StrEnum):
     """A trajectory CSV in the lab's layout, with its companion where it had one."""
     WAYPOINTS = "waypoints"
     """A waypoint CSV; the body's motion is made from the strokes."""
+
+
+class WithinStroke(StrEnum):
+    """What becomes of strokes beyond the motors' range."""
+
+    CLIP = "clip"
+    """Each goes to the end of the range, as the lab's own program did."""
+
+
+@dataclass(frozen=True)
+class RecordingFit:
+    """How a recorded motion is changed to fit the robot, while its file stays as it is.
+
+    Args:
+        body: added to the body's heights, m.
+        feet: added to the heights of the feet, m.
+        scale: of the way of body and feet from the first sample on.
+        within_stroke: what becomes of strokes beyond the range; None where the motion is refused then.
+    """
+
+    body: float = 0.0
+    feet: float = 0.0
+    scale: float = 1.0
+    within_stroke: WithinStroke | None = None
+
+    def __post_init__(self) -> None:
+        for name, value in (("body", self.body), ("feet", self.feet)):
+            if not abs(value) <= MOST_RAISED:
+                raise InputError(
+                    f"The recorded motion's {name} would be raised by {value * 1000:g} mm; at most "
+                    f"±{MOST_RAISED * 1000:g} mm can be chosen.",
+                    f"recorded.fit.{name}",
+                )
+        if not LEAST_SCALE <= self.scale <= MOST_SCALE:
+            raise InputError(
+                f"The recorded motion would be scaled by {self.scale:g}; it must lie in {LEAST_SCALE:g} to "
+                f"{MOST_SCALE:g}.",
+                "recorded.fit.scale",
+            )
+
+
+AS_RECORDED = RecordingFit()
 
 
 def text_sha256(text: str) -> str:
@@ -36,6 +82,7 @@ class Recording:
         text: what stands in it.
         companion: text of the trajectory's companion; None where it came without one.
         assumed: sentences on what reading it assumed.
+        fit: how the motion in it is changed to fit the robot.
     """
 
     file: str
@@ -43,6 +90,7 @@ class Recording:
     text: str
     companion: str | None = None
     assumed: tuple[str, ...] = ()
+    fit: RecordingFit = AS_RECORDED
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.file) <= MOST_FILE_NAME:

@@ -16,7 +16,7 @@ STOP_BOUND = 1.5
 """Stop bound of a new gait for the robot's clock, s: 1.0 s would cost nearly half of its speed."""
 MARGIN = 0.006
 ATLAS = "deltawalker-small"
-"""The included atlas, of which each of these gaits has a number."""
+"""The included atlas, of which most of these gaits have a number."""
 
 
 def asked_gait(item: dict[str, Any], like: Gait) -> Gait:
@@ -28,7 +28,8 @@ def asked_gait(item: dict[str, Any], like: Gait) -> Gait:
     """
     step, turn = item.get("step"), math.radians(item.get("turn", 0.0))
     dx, dy, _ = heading_step(like.orientation, USUAL_STEP if step is None else step)
-    is_free = step is None or step == 0.0
+    is_free = step is None or (step == 0.0 and not item.get("exact", False))
+    number = f" Atlas gait {item['atlas']}." if "atlas" in item else ""
     options = replace(
         like.options,
         margin=item.get("margin", MARGIN),
@@ -42,7 +43,7 @@ def asked_gait(item: dict[str, Any], like: Gait) -> Gait:
         step=(dx, dy, turn),
         iterations=CYCLES,
         options=options,
-        notes=f"{item['note']} Atlas gait {item['atlas']}.",
+        notes=f"{item['note']}{number}",
     )
     return new_pose_gait(item["name"], asked, Poses(free_step=is_free), load_robot(like.robot))
 

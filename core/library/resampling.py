@@ -11,7 +11,7 @@ from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.gait.gait import Gait, SequencePart, drawn_timeline, is_drawn
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS
-from core.gait.recording import Recording, RecordingForm
+from core.gait.recording import Recording, RecordingFit, RecordingForm
 from core.library.sequence import part_name
 from core.motion.contact_timeline import SAME_INTERVAL, ContactTimeline
 from core.motion.trajectory import Trajectory
@@ -145,6 +145,7 @@ def _recorded(gait: Gait, recording: Recording, sample_time: float) -> Gait:
         text,
         format_companion(motion, text, gait.robot),
         (*recording.assumed, sentence),
+        RecordingFit(within_stroke=recording.fit.within_stroke),
     )
     stance = np.array(motion.contact.T)
     return replace(

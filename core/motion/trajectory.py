@@ -1,6 +1,6 @@
 """A motion over time in the world frame."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -79,11 +79,19 @@ class Trajectory:
         Raises:
             UnreachableError: a foot lies outside the workspace.
         """
+        self.require_feet_of(model)
+        return walker_strokes(model, self.feet_world, self.pose(model))
+
+    def require_feet_of(self, model: RobotModel) -> None:
+        """The motion is of a robot with as many feet.
+
+        Raises:
+            InputError: it is not.
+        """
         if self.leg_count != model.leg_count:
             raise InputError(
                 f"The trajectory has {self.leg_count} feet, the robot {model.leg_count}.", "trajectory"
             )
-        return walker_strokes(model, self.feet_world, self.pose(model))
 
 
 def difference_velocities(times: Floats, positions: Floats) -> Floats:
@@ -97,6 +105,46 @@ def difference_velocities(times: Floats, positions: Floats) -> Floats:
         (n, ...) m/s.
     """
     return np.asarray(np.gradient(positions, times, axis=0))
+
+
+def turned_about_body(trajectory: Trajectory, angle: Floats) -> Trajectory:
+    """The body where it is, with its heading and its feet turned about it; the strokes stay the same.
+
+    With p the place of a foot and v its speed, b and u those of the body, R the turn by the angle a:
+    p' = b + R (p - b), v' = u + R (v - u) + da/dt z x (p' - b).
+
+    Args:
+        trajectory: the motion.
+        angle: (n,) turn at each knot, rad; where it is 0 the feet's places stay the same to the last bit.
+    """
+    body, rate = trajectory.body_world[:, None], np.gradient(angle, trajectory.times)[:, None, None]
+
+    def turned(vectors: Floats) -> Floats:
+        x, y, z = np.moveaxis(vectors, -1, 0)
+        cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
+        return np.stack([cosine * x - sine * y, sine * x + cosine * y, z], axis=-1)
+
+    def where_turned(after: Floats, before: Floats, changes: Bools) -> Floats:
+        return np.where(changes[:, None, None], after, before)
+
+    is_turned = np.asarray(angle != 0.0)
+    arms = turned(trajectory.feet_world - body)
+    velocity, forces = trajectory.feet_velocity, trajectory.contact_forces
+    if velocity is not None:
+        along = trajectory.body_velocity
+        if along is None:
+            along = difference_velocities(trajectory.times, trajectory.body_world)
+        along = along[:, None]
+        across = np.stack([-arms[..., 1], arms[..., 0], np.zeros_like(arms[..., 0])], axis=-1)
+        moved = along + turned(velocity - along) + rate * across
+        velocity = where_turned(moved, velocity, is_turned | (rate[:, 0, 0] != 0.0))
+    return replace(
+        trajectory,
+        heading=trajectory.heading + angle,
+        feet_world=where_turned(body + arms, trajectory.feet_world, is_turned),
+        feet_velocity=velocity,
+        contact_forces=None if forces is None else where_turned(turned(forces), forces, is_turned),
+    )
 
 
 def quarter_turn(quarter_turns: int) -> Floats:

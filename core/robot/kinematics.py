@@ -5,6 +5,7 @@ Every function is pure and works over any leading axes: time first, then leg, th
 """
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from core.errors import InfeasibleError
 from core.robot.leg import foot_from_strokes, strokes_from_foot
 from core.robot.model import RobotModel, StrokeLimits
 from core.robot.nearest_reachable import nearest_reachable
+
+REMEDY = "Shorten the step or change the body's height."
+"""What helps where a foot cannot go where it was asked."""
 
 
 class UnreachableError(InfeasibleError):
@@ -34,6 +38,10 @@ class UnreachableError(InfeasibleError):
         self.sample = sample
         self.nearest_module = nearest_module
         self.distance = distance
+
+    def with_sentence(self, sentence: str) -> Self:
+        """The same refusal in other words."""
+        return type(self)(sentence, self.foot, self.sample, self.nearest_module, self.distance)
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +164,7 @@ def _raise_unreachable(model: RobotModel, feet_module: Floats, feet_world: Float
     x, y, _ = feet_world[first]
     raise UnreachableError(
         f"Foot {foot + 1} cannot reach ({x:.3f}, {y:.3f}) m at sample {sample + 1}: {distance * 1000:.1f} mm "
-        "outside its workspace. Shorten the step or change the body's height.",
+        f"outside its workspace. {REMEDY}",
         foot,
         sample,
         nearest,

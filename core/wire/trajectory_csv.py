@@ -3,22 +3,32 @@
 30 rows × N knots: body xyz (z of the centre of mass), feet 1 to 4 xyz, then their velocities, SI, under a
 header `Column1,…,ColumnN`. Older files have a first line 0, 1, 2, … or words, and no velocities. What the
 layout cannot say travels in a companion JSON bound by the CSV's hash.
+
+The lab's scripts have no heading: their feet are those of a body that keeps it. So where the body turns, the
+feet are turned back about its place by its heading, and inverse kinematics of the CSV alone, at heading 0,
+gives the strokes of the motion: the return of a rotation in place is feet that move back. Places of the body
+are the world's. The companion has the heading and says so (`feet_axes`: `body`), by which the feet are turned
+to where they are in the world. A companion without it belongs to a file whose feet are the world's.
 """
 
 import hashlib
 import json
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from core.arrays import Bools, Floats
+from core.arrays import Bools, Floats, frozen_floats
 from core.errors import InputError
-from core.motion.trajectory import Trajectory, difference_velocities
+from core.motion.trajectory import Trajectory, difference_velocities, turned_about_body
 from core.wire.waypoints import is_waypoint_text
 
 COMPANION_FORMAT = "footfall-trajectory"
+WORLD_AXES, BODY_AXES = "world", "body"
+"""Axes of the feet's places as seen from the body: the world's, or those that turn with its heading."""
+VERSIONS = {WORLD_AXES: 1, BODY_AXES: 2}
+"""Version of the companion by its feet's axes; programs that know only version 1 then assume heading 0."""
 DEFAULT_INTERVAL = 0.4
 """Time between knots where no companion says otherwise, s."""
 FARTHEST = 10_000.0
@@ -69,16 +79,17 @@ def standard_layout(knots: int) -> CsvLayout:
 
 
 def format_trajectory_csv(trajectory: Trajectory, layout: CsvLayout | None = None) -> str:
-    """Writes header and rows; numbers so that they read back to the last bit.
+    """Writes header and rows; numbers so that they read back to the last bit, where the body does not turn.
 
     Args:
-        trajectory: the motion.
+        trajectory: the motion in the world; feet are written in the axes of the body.
         layout: of the file; the standard one where None.
     """
     layout = layout or standard_layout(trajectory.knot_count)
-    columns = _positions(trajectory)
+    unturned = turned_about_body(trajectory, -trajectory.heading)
+    columns = _positions(unturned)
     if layout.has_velocities:
-        columns = np.concatenate([columns, _velocities(trajectory)], axis=1)
+        columns = np.concatenate([columns, _velocities(unturned)], axis=1)
     lines = [] if layout.header is None else [layout.header]
     lines += [",".join(repr(float(v)) for v in row) for row in columns.T]
     return "\n".join(lines) + "\n"
@@ -107,17 +118,29 @@ def format_companion(trajectory: Trajectory, csv_text: str, robot: str | None = 
         csv_text: the CSV's text.
         robot: name of the robot that the motion was made for; None where it is not known.
     """
+    axes = BODY_AXES if trajectory.heading.any() else WORLD_AXES
     content: dict[str, Any] = {
         "format": COMPANION_FORMAT,
-        "version": 1,
+        "version": VERSIONS[axes],
         "csv_sha256": _digest(csv_text),
         "legs": trajectory.leg_count,
+        **({} if axes == WORLD_AXES else {"feet_axes": axes}),
         **({} if robot is None else {"robot": robot}),
         "times": trajectory.times.tolist(),
         "heading": trajectory.heading.tolist(),
         "contact": trajectory.contact.astype(int).tolist(),
     }
     return json.dumps(content) + "\n"
+
+
+def bound_companion(companion: str, csv_text: str) -> str:
+    """A companion of a CSV for the same numbers in another text.
+
+    Args:
+        companion: text of the companion.
+        csv_text: the CSV's new text.
+    """
+    return json.dumps({**json.loads(companion), "csv_sha256": _digest(csv_text)}) + "\n"
 
 
 def _digest(text: str) -> str:
@@ -192,7 +215,6 @@ def _assemble(
     columns = table.T
     body, feet = columns[:, :3], columns[:, 3:size].reshape(n, legs, 3)
     times = np.asarray(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL, np.float64)
-    heading = np.asarray(companion["heading"] if companion else np.zeros(n), np.float64)
     if layout.has_velocities:
         body_velocity = columns[:, size : size + 3]
         feet_velocity = columns[:, size + 3 :].reshape(n, legs, 3)
@@ -200,18 +222,43 @@ def _assemble(
         body_velocity = difference_velocities(times, body)
         feet_velocity = difference_velocities(times, feet)
         assumptions.append("Velocities are missing; they are differences of the positions.")
-    contact = np.array(companion["contact"], dtype=np.bool_) if companion else _standing(feet)
-    trajectory = Trajectory(times, body, heading, feet, contact, body_velocity, feet_velocity)
+    contact = np.array(companion["contact"], dtype=np.bool_) if companion else standing_feet(feet)
+    trajectory = Trajectory(times, body, np.zeros(n), feet, contact, body_velocity, feet_velocity)
+    if companion:
+        trajectory = _headed(trajectory, companion)
     robot = None if companion is None or companion.get("robot") is None else str(companion["robot"])
     return TrajectoryFile(trajectory, tuple(assumptions), layout, companion is not None, robot)
 
 
-def _standing(feet: Floats) -> Bools:
-    """A foot stands where it lies within the standing height and keeps still towards a neighbouring knot."""
+def _headed(trajectory: Trajectory, companion: dict[str, Any]) -> Trajectory:
+    """The motion in the world, with the heading that the companion states."""
+    heading = np.asarray(companion["heading"], np.float64)
+    axes = companion.get("feet_axes", WORLD_AXES)
+    if axes not in VERSIONS:
+        raise ValueError(f"feet_axes is {axes!r}; it must be one of {', '.join(VERSIONS)}")
+    if axes == WORLD_AXES:
+        return replace(trajectory, heading=heading)
+    return turned_about_body(trajectory, frozen_floats(heading, (trajectory.knot_count,), "heading"))
+
+
+def standing_feet(feet: Floats) -> Bools:
+    """Contact from positions: a foot stands where it lies low and keeps still towards a neighbouring knot.
+
+    Both are judged by `STANDING_HEIGHT`. Where no foot would stand though all lie low, all stand: the body
+    turns on them, and its file has no heading.
+
+    Args:
+        feet: (n, legs, 3) platform centres in the world, m.
+
+    Returns:
+        (n, legs).
+    """
     low = np.abs(feet[..., 2]) <= STANDING_HEIGHT
     still = np.linalg.norm(np.diff(feet, axis=0), axis=-1) <= STANDING_HEIGHT
     padded = np.concatenate([still[:1] & False, still, still[:1] & False])
-    return np.asarray(low & (padded[1:] | padded[:-1]))
+    stands = low & (padded[1:] | padded[:-1])
+    turns = low.all(axis=1) & ~stands.any(axis=1)
+    return np.asarray(stands | turns[:, None])
 
 
 def _companion(text: str | None, csv_text: str, name: str) -> tuple[dict[str, Any] | None, list[str]]:
@@ -223,7 +270,7 @@ def _companion(text: str | None, csv_text: str, name: str) -> tuple[dict[str, An
         return None, [f"{name} has no companion file; assumed: {assumed}"]
     try:
         content: dict[str, Any] = json.loads(text)
-        if content.get("format") != COMPANION_FORMAT or content.get("version") != 1:
+        if content.get("format") != COMPANION_FORMAT or content.get("version") not in VERSIONS.values():
             return None, [f"The companion of {name} is of an unknown format; assumed: {assumed}"]
     except (json.JSONDecodeError, AttributeError):
         return None, [f"The companion of {name} is not JSON; assumed: {assumed}"]

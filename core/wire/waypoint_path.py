@@ -23,9 +23,19 @@ def waypoints_from_trajectory(model: RobotModel, trajectory: Trajectory) -> Wayp
     Raises:
         UnreachableError: a foot lies outside the workspace.
     """
+    return knots_of_strokes(model, trajectory, trajectory.strokes(model))
+
+
+def knots_of_strokes(model: RobotModel, trajectory: Trajectory, strokes: Floats) -> Waypoints:
+    """The same of strokes that are known already.
+
+    Args:
+        model: the robot.
+        trajectory: says the times.
+        strokes: (n, legs, 3) m.
+    """
     steps = np.diff(trajectory.times)
-    strokes = real_strokes(model, trajectory.strokes(model))
-    return Waypoints(strokes, np.concatenate([steps[:1], steps]))
+    return Waypoints(real_strokes(model, strokes), np.concatenate([steps[:1], steps]))
 
 
 def stays_near(rows: Floats, first: int, last: int, tolerance: float) -> bool:

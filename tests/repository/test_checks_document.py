@@ -17,6 +17,7 @@ from core.checks import path as path_check
 from core.checks import shoes as shoe_check
 from core.motion.balance import BALANCE_RESERVE
 from core.motion.way_made import WARNED_SHARE
+from core.overrides import FINAL, OVERRIDABLE
 from core.physics import findings as physics
 from core.robot.arms import ARM_GAP
 from core.robot.model import load_robot
@@ -58,6 +59,18 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
         named |= set(re.findall(r'^ +"((?:path|made)_\w+)": ', text, re.MULTILINE))
         named |= set(re.findall(r'(?:travel|heading)_outcome\(\s*"(\w+)"', text))
     assert {row[0] for row in ROWS} == named
+
+
+@pytest.mark.parametrize(("name", "table"), [("may", OVERRIDABLE), ("may not", FINAL)])
+def test_the_documentation_lists_the_rules_that_may_be_overridden(name: str, table: dict[str, str]) -> None:
+    (line,) = re.findall(rf"^- Errors of these rules {name} be overridden: (.*)$", TEXT, re.MULTILINE)
+    assert re.findall(r"`(\w+)`", line) == list(table)
+
+
+def test_every_rule_in_the_table_is_classified_once() -> None:
+    rules = {row[0] for row in ROWS}
+    assert rules <= OVERRIDABLE.keys() | FINAL.keys()
+    assert OVERRIDABLE.keys() <= rules
 
 
 @pytest.mark.parametrize(

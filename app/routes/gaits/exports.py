@@ -15,7 +15,7 @@ from app.gaits.open_gait import OpenGait
 from app.web.dependencies import RequestBody, TheStudio, changed, on_command_thread, on_planned
 from core.errors import InputError
 from core.gait.gait import MOST_NAME
-from core.gait.recording import MOST_FILE_NAME
+from core.gait.recording import MOST_FILE_NAME, RecordingFit, WithinStroke
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 MOST_BYTES = 20_000_000
@@ -69,16 +69,21 @@ async def import_gait(
     name: Annotated[str | None, Query(max_length=MOST_NAME)] = None,
     sample_time: Annotated[float | None, Query(gt=0)] = None,
     robot: Annotated[str | None, Query(max_length=80)] = None,
+    within_stroke: WithinStroke | None = None,
 ) -> dict[str, Any]:
     """Saves a new gait from a trajectory CSV, waypoints, a phase list or a gait document.
 
     `file` is the file's name, for messages and for what the gait says of its origin. `robot` says whose
-    motion it is where several have so many feet. A name that another gait has already gets a number. The
+    motion it is where several have so many feet, `within_stroke` what becomes of strokes beyond the motors'
+    range. A name that another gait has already gets a number. The
     answer is the gait's view with `remarks`: what was assumed.
     """
     text, companion = _file(await _body(request, file), file)
+    fit = RecordingFit(within_stroke=within_stroke)
     described = await run_in_threadpool(
-        lambda: read_gait(text, file, name=name, companion=companion, sample_time=sample_time, robot=robot)
+        lambda: read_gait(
+            text, file, name=name, companion=companion, sample_time=sample_time, robot=robot, fit=fit
+        )
     )
 
     def create() -> OpenGait:

@@ -32,8 +32,11 @@ class FastestBody(RequestBody):
     )
     heading: Finite = Field(default=0.0, ge=-2.0 * math.pi, le=2.0 * math.pi, description="rad from x")
     overlap: bool = False
-    course: Course = Field(default=Course.WALK, description="a walk, or a turn on the spot to one side")
-    turn: Finite = Field(default=0.0, description="of a walk, rad a cycle, to the left above 0")
+    course: Course = Field(
+        default=Course.WALK,
+        description="a walk, or on the spot a turn by `turn` or the fastest one to the left or right",
+    )
+    turn: Finite = Field(default=0.0, description="of a walk or a turn, rad a cycle, to the left above 0")
     step: Finite | None = Field(
         default=None, description="of a walk, m a cycle; null for the fastest", gt=0.0
     )

@@ -31,6 +31,7 @@ from app.web.dependencies import (
 from core.errors import InputError, StateError
 from core.gait.gait import MOST_NAME, Gait
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS
+from core.overrides import MOST_REASON, OVERRIDABLE, OverrideRequest
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 
@@ -65,12 +66,25 @@ class Redraw(RequestBody):
     closing_knots: int = Field(default=5, ge=0, le=MOST_CLOSING_KNOTS)
 
 
+class OverrideErrors(RequestBody):
+    """Errors in spite of which a person approves."""
+
+    rules: list[str] = Field(
+        min_length=1,
+        max_length=len(OVERRIDABLE),
+        description="Every rule of which an error stands.",
+        json_schema_extra={"items": {"type": "string", "enum": list(OVERRIDABLE)}},
+    )
+    reason: str = Field(max_length=MOST_REASON, description="Why the robot may move in spite of them.")
+
+
 class Approve(RequestBody):
     """Who approves, and the verdict that they saw."""
 
     by: str = Field(max_length=80)
     verdict_hash: str | None = None
     accept_warnings: bool = Field(False, description="They have seen every warning of it and accept it.")
+    override: OverrideErrors | None = None
 
 
 async def _document(request: Request) -> bytes:
@@ -256,10 +270,13 @@ async def check(gait_id: str, studio: TheStudio) -> Json:
 
 @router.post("/{gait_id}/approve")
 async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> Json:
-    """Records a person's approval of the present verdict."""
+    """Records a person's approval of the present verdict, or in spite of errors that may be overridden."""
+    asked = approval.override
+    override = None if asked is None else OverrideRequest(tuple(asked.rules), asked.reason)
 
     def approved() -> Json:
-        request = ApprovalRequest(approval.by, approval.verdict_hash, approval.accept_warnings)
+        seen = (approval.verdict_hash, approval.accept_warnings)
+        request = ApprovalRequest(approval.by, *seen, override)
         open_gait = studio.gaits.approve(gait_id, request)
         studio.publisher.publish_gait(open_gait)
         if open_gait.approval is None:

@@ -202,9 +202,12 @@ export const api = {
   recover: onGait("POST", "/recover"),
   restore: onGait("POST", "/restore"),
   check: onGait("POST", "/check"),
-  /** @type {(id: string, by: string, verdict: string, seen: boolean) => Promise<any>} */
-  approve: (id, by, verdict, seen) =>
-    request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict, accept_warnings: seen }),
+  /**
+   * @type {(id: string, by: string, verdict: string, seen: boolean,
+   *   override?: {rules: string[], reason: string}|null) => Promise<any>}
+   */
+  approve: (id, by, verdict, seen, override = null) =>
+    request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict, accept_warnings: seen, override }),
   approvals: onGait("GET", "/approvals"),
   /** @type {(id: string, number: number, to?: number|null) => Promise<any>} */
   approvalDifference: (id, number, to = null) =>

@@ -6,6 +6,7 @@ import { h } from "../lib/dom.js";
 import { clockTime, counted, fixed, shortHash } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
+import { ruleNames } from "../state/override.js";
 
 const NOW = "the gait as it is now";
 
@@ -19,7 +20,7 @@ function figuresText({ figures, warnings }) {
 }
 
 function item(record, compare) {
-  const { by, when, stands, waypoints_hash: waypoints, warnings } = record;
+  const { by, when, stands, waypoints_hash: waypoints, warnings, override } = record;
   const state = h("span", {
     class: "approval-state",
     data: { stands: String(stands) },
@@ -36,6 +37,7 @@ function item(record, compare) {
       state,
     ),
     h("span", { class: "quiet", text: figuresText(record), title: warnings.join("\n") || null }),
+    override && h("span", { text: `In spite of: ${ruleNames(override.rules)}. ${override.reason}` }),
     h(
       "span",
       { class: "where" },

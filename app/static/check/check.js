@@ -7,8 +7,14 @@ import { capital, counted, fixed, readable, ruleName, shortHash } from "../lib/f
 import { needOperator } from "../state/operator.js";
 import { openedStep, openStep } from "../steps/steps.js";
 import { costTable, sendingFields } from "./sending.js";
+import { askOverride, errorsOf, overrideNote, whyNotOverride } from "../state/override.js";
 import { checkGone } from "../state/store.js";
 import { attempt, toast } from "../lib/toasts.js";
+
+const CHECK_HELP = "Tests every rule on the waypoints that would be sent to the robot";
+const APPROVED_ONCE = "After an edit or a new simulation, you must approve the gait again.";
+const OVERRIDE_WHY = "You may approve in spite of these errors. Approve asks for the reason.";
+const OVERRIDE_HELP = "Approve asks for a reason, and the studio saves it with the approval";
 
 function findingItem(finding, goTo) {
   const place = [
@@ -26,6 +32,7 @@ function findingItem(finding, goTo) {
     h(
       "span",
       { class: "where" },
+      finding.overridable && h("span", { text: "may be overridden", title: OVERRIDE_HELP }),
       place && h("span", { text: place }),
       finding.time !== null
         && h("span", {
@@ -74,17 +81,27 @@ function uncheckedNote(view, before) {
   return h("p", { class: isOld ? "box-note" : "why", data: { tone: isOld ? "caution" : "plain" }, text });
 }
 
+const isCheckNext = (view) => !view?.verdict?.passed && !view?.approval?.override;
+
+const approvalNote = ({ passed }) => (passed ? APPROVED_ONCE : OVERRIDE_WHY);
+
+/** What is to be done about the findings. */
+function adviceOn(verdict) {
+  if (verdict.passed) return "Read the findings before you approve.";
+  if (whyNotOverride(verdict)) return "Errors block approval.";
+  return "Correct the gait, or press Approve to override the errors with a reason.";
+}
+
 function summary(view, before) {
   const { verdict } = view;
   if (!verdict) return uncheckedNote(view, before);
   const warnings = warningsOf(verdict).length;
-  const errors = verdict.findings.length - warnings;
+  const errors = errorsOf(verdict).length;
   if (!errors && !warnings) return "";
   const counts = [errors && counted(errors, "error"), warnings && counted(warnings, "warning")]
     .filter(Boolean)
     .join(", ");
-  const advice = verdict.passed ? "Read the findings before you approve." : "Errors block approval.";
-  const text = `${counts}. ${advice}`;
+  const text = view.approval?.override ? `${counts}.` : `${counts}. ${adviceOn(verdict)}`;
   return h("p", { class: "box-note", data: { tone: verdict.passed ? "caution" : "bad" } }, h("b", { text }));
 }
 
@@ -110,12 +127,16 @@ function approvalBox({ approval }) {
   );
 }
 
+/** Whether the motors cannot make the motion; the check then lists everything that is wrong with it. */
+const isBeyondRange = ({ source, refusal, times }) =>
+  Boolean(refusal) && times.length > 0 && ["recorded", "manual"].includes(source);
+
 function whyNotCheck({ view, pending }) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The studio is still saving your last edit.";
   if (view.plan?.live?.status === "infeasible")
     return "There is no motion to check. The Design step shows what is wrong and suggests changes.";
-  if (!view.plan || view.plan.refusal) {
+  if (!view.plan || (view.plan.refusal && !isBeyondRange(view.plan))) {
     return view.plan?.refusal?.sentence ?? "There is no plan to check. Press Optimise first.";
   }
   return null;
@@ -123,8 +144,9 @@ function whyNotCheck({ view, pending }) {
 
 function whyNotApprove({ view, pending, seenWarnings }) {
   if (!view?.verdict || pending.length) return "Check this version of the gait first.";
-  if (!view.verdict.passed) return "The check failed. Errors block approval.";
   if (view.approval) return `${view.approval.by} has already approved this gait.`;
+  const reason = whyNotOverride(view.verdict);
+  if (reason) return reason;
   if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash)
     return "There are warnings. Read each warning, then tick “I have seen …”.";
   return null;
@@ -140,7 +162,7 @@ function warningTick(store) {
   );
   const show = ({ view, seenWarnings }) => {
     const warnings = warningsOf(view?.verdict);
-    element.hidden = !warnings.length || !view.verdict.passed || Boolean(view.approval);
+    element.hidden = !warnings.length || Boolean(view.approval || whyNotOverride(view.verdict));
     box.checked = seenWarnings !== undefined && seenWarnings === view?.verdict?.hash;
     count.textContent =
       warnings.length === 1 ? "I have seen this warning" : `I have seen these ${warnings.length} warnings`;
@@ -152,6 +174,9 @@ async function approve(store) {
   const { selected, view } = store.state;
   const by = await needOperator(store, "The studio saves your name and the time with the approval.");
   if (!by) return;
+  const errors = errorsOf(view.verdict);
+  const override = errors.length ? await askOverride(errors) : null;
+  if (errors.length && !override) return;
   if (store.state.selected !== selected || store.state.view?.plan?.hash !== view.plan.hash) {
     toast("The gait has changed since the check. Check the gait again.");
     return;
@@ -161,6 +186,7 @@ async function approve(store) {
     by,
     view.verdict.hash,
     store.state.seenWarnings === view.verdict.hash,
+    override,
   );
   if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
   store.set({
@@ -208,29 +234,30 @@ export function mountCheck(store, edits, goTo) {
   );
   const tick = warningTick(store);
   byId("foot-check").append(tick.element, h("div", { class: "solve" }, checkButton, approveButton), why);
-  byId("check").append(head, sendingFields(store, edits), body, foot, approvalHistory(store));
+  byId("check").append(
+    overrideNote(store),
+    head,
+    sendingFields(store, edits),
+    body,
+    foot,
+    approvalHistory(store),
+  );
 
   store.watch(
     ({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings],
     (state) => {
       tick.show(state);
       const { view, checked } = state;
-      setAllowed(
-        checkButton,
-        whyNotCheck(state),
-        "Tests every rule on the waypoints that would be sent to the robot",
-      );
+      setAllowed(checkButton, whyNotCheck(state), CHECK_HELP);
       const blocked = whyNotApprove(state);
       setAllowed(
         approveButton,
         blocked,
         "Allows the studio to send exactly the checked waypoints to the robot",
       );
-      checkButton.classList.toggle("primary", !view?.verdict?.passed);
-      approveButton.classList.toggle("primary", !blocked);
-      why.textContent = view?.approval
-        ? ""
-        : (blocked ?? "After an edit or a new simulation, you must approve the gait again.");
+      checkButton.classList.toggle("primary", isCheckNext(view));
+      approveButton.classList.toggle("primary", !blocked && !isCheckNext(view));
+      why.textContent = view?.approval ? "" : (blocked ?? approvalNote(view.verdict));
       if (!view) return;
       head.replaceChildren(summary(view, checked[view.id]));
       foot.replaceChildren(approvalBox(view));

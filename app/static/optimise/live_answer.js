@@ -114,6 +114,13 @@ function verdictOf(state, goTo) {
   const first = (text) => () => [h("p", { class: "first", text })];
   if (isRefusedDrawing(state))
     return { title, about: plan.refusal.sentence, build: first(plan.refusal.sentence), mendable: true };
+  if (plan?.misfit)
+    return {
+      title: plan.refusal ? "The recording does not fit the robot" : "Heights in another frame?",
+      about: plan.misfit,
+      build: first(plan.misfit),
+      mendable: true,
+    };
   const fall = fallOf(state);
   return fall
     ? { title: "The robot would tip over", about: fall.sentence, build: first(fall.sentence), mendable: true }

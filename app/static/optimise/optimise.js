@@ -10,6 +10,7 @@ import { jobIsOn } from "../shell/job_list.js";
 import { presetFor } from "../shell/new_gait.js";
 import { fallOf } from "../state/live_plan.js";
 import { hasNoMotion, ownPlan, shownDocument } from "../state/store.js";
+import { clippedStrokes } from "./clipped.js";
 import { mountConvergence } from "./convergence.js";
 import { drawFreelyButton, fasterButton } from "./faster.js";
 import { mountIterates } from "./iterates.js";
@@ -135,6 +136,7 @@ export function mountOptimise(store, edits, goTo) {
     timing.element,
     why,
     noteLine(store),
+    clippedStrokes(store, edits, goTo),
     originLine(store),
   );
   store.watch(

@@ -20,7 +20,7 @@ const FIRST_MM = 3;
 const SETTLE_MS = 450;
 
 const INVITATION = "Click here, or press Enter, to drive by keys.";
-const DRIVING = "Keys act. Hold a key for one step after the other. Tab, Esc or a click elsewhere ends it.";
+const DRIVING = "Keys act. Hold a key for step after step. Tab or Esc leaves.";
 const NO_CONTROL = "You are not in control of the robot. Press Arm to take control.";
 
 /** Why no key may move the robot now; null where one may. A step that is under way is no reason. */

@@ -11,6 +11,7 @@ import { openDrawer } from "../shell/drawers.js";
 import { robotTone } from "../shell/topbar.js";
 import { leasePart, whyNotHeld } from "../state/lease.js";
 import { needOperator } from "../state/operator.js";
+import { overrideNote } from "../state/override.js";
 import { commandedStrokes } from "../state/plan_samples.js";
 import { acceptRobot, planIsOn, runIsOn, stopLimit } from "../state/store.js";
 import { drivePart } from "./drive.js";
@@ -171,7 +172,7 @@ function assemble({ store, edits, playback }, parts, send) {
   const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", key), parts.bars.element);
   const byHand = [jogPart(store, edits), drivePart(store), motorTestPart(store)];
   const more = h("div", { class: "after-run" }, ...byHand, robotFaults(store));
-  const above = [leasePart(store), before, runningPart(store), parts.record, strokes];
+  const above = [leasePart(store), overrideNote(store), before, runningPart(store), parts.record, strokes];
   byId("robot").append(...above, more, robotLog(store));
   keepPlace(
     above,

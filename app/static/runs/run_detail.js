@@ -4,6 +4,7 @@ import { api } from "../api/gaits.js";
 import { h, onPress, setText } from "../lib/dom.js";
 import { clockTime, fixed, seconds, shortHash } from "../lib/format.js";
 import { announce, attempt, report, toast } from "../lib/toasts.js";
+import { ruleNames } from "../state/override.js";
 import { runComparison } from "./run_comparison.js";
 import { runTone } from "./run_list.js";
 import { errorTables } from "./run_tables.js";
@@ -19,7 +20,8 @@ function facts(run) {
     ["Motors, largest", run.errors ? `${fixed(run.errors.largest_mm, 2)} mm` : "–"],
     ["Body, largest", run.errors ? `${fixed(run.errors.body_largest_mm, 2)} mm` : "–"],
     ["Stop bound", run.stop_bound === null ? "none" : `${seconds(run.stop_bound)} s`],
-    ["Approved by", run.approval?.by ?? "–"],
+    ["Approved by", run.approval?.by ?? run.override?.by ?? "–"],
+    ...(run.override ? [["In spite of", `${ruleNames(run.override.rules)}: ${run.override.reason}`]] : []),
     ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash],
   ];
   return h(

@@ -6,6 +6,7 @@ import { clockTime, counted, fixed, seconds } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
+import { overrideText } from "../state/override.js";
 
 const TONES = {
   done: "good",
@@ -48,6 +49,9 @@ function runRow(run, open) {
     ),
     h("span", { class: "run-line quiet" }, h("span", { text: `${run.by} · ${when}` })),
     h("span", { class: "run-line quiet", text: figures(run) || run.sentence }),
+    run.override
+      ? h("span", { class: "run-line quiet", text: overrideText(run.override, run.override.by) })
+      : null,
     run.note ? h("span", { class: "run-line run-note", text: run.note }) : null,
   );
   return h("li", {}, button);

@@ -124,7 +124,8 @@ export function fallOf(state) {
 }
 
 /**
- * Looks for what would help a drawing that cannot walk, once nobody has edited it for a moment. What is
+ * Looks for what would help a drawing that cannot walk, or a recording that does not fit the robot, once
+ * nobody has edited it for a moment. What is
  * found belongs to one document, to the letter: a later edit may lead to the same plan, and what was found
  * before it would take it back.
  * @param {Store} store
@@ -137,7 +138,7 @@ function mountRemedies(store) {
   let asked = { text: null, gesture: null };
   let since = 0;
   const wanted = (/** @type {State} */ state) =>
-    hasNoMotion(ownPlan(state)) || fallOf(state) ? shownText(state) : null;
+    hasNoMotion(ownPlan(state)) || fallOf(state) || ownPlan(state)?.misfit ? shownText(state) : null;
 
   function end() {
     clearTimeout(timer);

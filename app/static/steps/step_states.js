@@ -107,7 +107,10 @@ export function checkState(now) {
 /** The state of the approval, with who gave it. */
 export function approvalState(now) {
   const { view, checked } = now;
-  if (view?.approval && !isEdited(now)) return state("done", `by ${view.approval.by}`);
+  if (view?.approval && !isEdited(now)) {
+    const { by, override } = view.approval;
+    return state("done", override ? `by ${by}, with errors` : `by ${by}`);
+  }
   if (view?.approval || view?.revoked || (view && checked[view.id]?.word === "approved"))
     return state("old", "no longer valid");
   return state("none", "not yet");

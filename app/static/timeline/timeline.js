@@ -18,9 +18,13 @@ let dismissed = null;
 /** What the studio refuses of the shown plan, as a sentence; nothing where the page says it elsewhere. */
 function planRefusal(state) {
   const plan = shownPlan(state);
-  // An adapted motion may be out of reach; its search says whether the gait is. Of a drawing the inspector
-  // says why.
-  const isSaid = plan?.live?.status === "infeasible" || plan?.source === "adapted" || isRefusedDrawing(state);
+  // An adapted motion may be out of reach; its search says whether the gait is. Of a drawing and of a
+  // recording the inspector says why.
+  const isSaid =
+    plan?.live?.status === "infeasible"
+    || plan?.source === "adapted"
+    || plan?.misfit
+    || isRefusedDrawing(state);
   return isSaid ? null : plan?.refusal?.sentence;
 }
 

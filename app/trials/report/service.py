@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from app.gaits.verdict_views import override_words
 from app.runs.plan_json import ran_plan
 from app.runs.service import RunService
 from app.trials.comparison import TrialComparison
@@ -152,6 +153,8 @@ class TrialReportService:
             yield "", error.sentence
             return
         yield "Robot held by", content["by"] or "–"
+        if content["override"] is not None:
+            yield "Approved in spite of", override_words(content["override"])
         yield "Started", content["started"]
         yield "Ended", content["ended"] or "–"
         yield "Result", content["sentence"] or content["state"]

@@ -36,9 +36,13 @@ def test_it_is_of_this_program_and_small(atlas: AtlasFile) -> None:
     assert atlas.space.hash == included_space().hash
 
 
-def test_every_gait_for_this_robot_has_a_number_in_it(atlas: AtlasFile) -> None:
+def test_every_gait_for_this_robot_but_one_turn_has_a_number_in_it(atlas: AtlasFile) -> None:
     assert list(ENTRIES) == list(group_ids(Group.FOR_ROBOT))
+    # The only turns on the spot in the atlas are the fastest ones.
+    assert [gait_id for gait_id, item in ENTRIES.items() if "atlas" not in item] == ["rotate-45"]
     for gait_id, item in ENTRIES.items():
+        if "atlas" not in item:
+            continue
         gait, (row, has) = library()[gait_id].gait, atlas.entry(item["atlas"])
         assert gait.notes.endswith(f"Atlas gait {item['atlas']}.")
         first = gait.order.index(1)

@@ -85,14 +85,25 @@ def test_the_same_seed_gives_the_same_variations(capsys: pytest.CaptureFixture[s
     assert runs[0] != runs[2]
 
 
-def test_a_foot_that_is_lifted_from_under_the_body_ends_with_status_4(
+def test_a_robot_that_rocks_onto_the_foot_that_is_lifted_from_under_it_gets_a_warning(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     path = written(tmp_path / "tip.csv", standing(lift=0.005, aside=0.006))
     status, answer = run_json(capsys, "simulate", path)
+    assert (status, answer["passed"], answer["fell"]) == (0, True, False)
+    assert answer["max_tilt"] > np.radians(2.0)
+    [tilt] = [finding for finding in answer["findings"] if finding["rule"] == "simulated_tilt"]
+    assert tilt["severity"] == "warning"
+    assert "does not fall" in tilt["sentence"]
+
+
+def test_a_robot_that_rocks_although_its_plan_has_a_reserve_ends_with_status_4(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = written(tmp_path / "tip.csv", standing(lift=0.005, aside=-0.0006))
+    status, answer = run_json(capsys, "simulate", path)
     assert (status, answer["passed"]) == (4, False)
-    assert answer["fell"] or answer["max_tilt"] > np.radians(2.0)
-    assert any(finding["severity"] == "error" for finding in answer["findings"])
+    assert {one["rule"] for one in answer["findings"] if one["severity"] == "error"} == {"simulated_tilt"}
 
 
 @pytest.mark.heavy

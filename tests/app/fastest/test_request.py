@@ -41,6 +41,15 @@ def test_a_turn_on_the_spot_is_free_to_its_side(course: Course, side: float) -> 
     assert math.copysign(1.0, problem.turn) == side
 
 
+@pytest.mark.parametrize("turn", [math.radians(15.0), -math.radians(20.0)])
+def test_a_rotation_turns_on_the_spot_by_what_is_asked(turn: float) -> None:
+    request = replace(ASKED, course=Course.TURN, turn=turn, heading=math.pi / 4)
+    problem = request.problem()
+    assert (problem.on_the_spot, problem.free_turn, problem.step) == (True, False, 0.0)
+    assert problem.turn == pytest.approx(turn)
+    assert request.document("Turn").step == pytest.approx((0.0, 0.0, turn))
+
+
 def test_the_direction_along_x_is_that_of_side_pairs() -> None:
     assert ASKED.document().orientation is Orientation.FBS
     assert replace(ASKED, heading=1e-13).document().orientation is Orientation.FBS
@@ -79,6 +88,8 @@ def test_foot_orders_stand_in_the_same_sequence_whichever_is_chosen() -> None:
         ({"margin": 0.2}, "margin"),
         ({"stop_bound": 0.1}, "0.8"),
         ({"turn": 4.0}, "turn"),
+        ({"course": Course.TURN, "turn": 4.0}, "turn"),
+        ({"course": Course.TURN}, "turn"),
         ({"sway": 2.0}, "sway"),
         ({"cycles": 99}, "20"),
     ],

@@ -50,7 +50,7 @@ def test_a_part_without_a_motion_is_named(tmp_path: Path, database: Database) ->
     plan = service.plan(tour)
     assert plan.waypoints is None
     assert plan.source is PlanSource.DRAFT
-    assert "Part 2, “Rotate 15°”, has no motion: There is none." in plan.note
+    assert "Part 2, “Rotate 15°, as in the thesis”, has no motion: There is none." in plan.note
     assert [part.source for part in plan.parts] == ["manual", "move", "draft"]
     assert plan.trajectory is not None
     assert np.array_equal(plan.trajectory.contact.T, service.document(tour).timeline.stance)
@@ -168,7 +168,7 @@ def test_a_parts_exact_result_becomes_part_of_the_plan(service: GaitService) -> 
     assert again is not None
     assert again.revision > revision, "an edit of what was seen before does not take the second result away"
     left = service.delivery.runs_without_result(again)
-    assert [run.name for run in left] == ["Rotate 15°"]
+    assert [run.name for run in left] == ["Rotate 15°, as in the thesis"]
     service.undo(tour)
     assert [part.source for part in service.plan(tour).parts] == ["live", "live", "live"]
 

@@ -101,7 +101,7 @@ def test_one_trajectory_one_verdict_one_approval(service: GaitService, tour: str
     assert np.array_equal(plan.trajectory.contact.T, service.document(tour).timeline.stance)
     assert [(part.name, part.is_transition) for part in plan.parts] == [
         ("Walk 10 mm", False),
-        ("Rotate 15°", False),
+        ("Rotate 15°, as in the thesis", False),
         ("S-Gait 10 mm", False),
     ]
     assert plan.parts[1].turn == pytest.approx(np.pi / 4, abs=1e-5)
@@ -253,7 +253,7 @@ def test_the_diagram_names_the_parts_and_how_many_have_no_room() -> None:
     short = sequence_gait("x", [SequencePart(gait("walk"), 3), SequencePart(gait("rotate"))])
     assert (
         facts(short, sample_edges(short, load_robot(short.robot)))
-        == "3x Walk 10 mm, 1x Rotate 15°  ·  30.0 mm, turn 15.0°  ·  169 samples of 0.4 s"
+        == "3x Walk 10 mm, 1x Rotate 15°, as in the thesis  ·  30.0 mm, turn 15.0°  ·  169 samples of 0.4 s"
     )
     long = sequence_gait("x", [SequencePart(gait("walk"))] * 9)
     assert facts(long, sample_edges(long, load_robot(long.robot))).startswith(

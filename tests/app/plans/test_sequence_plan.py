@@ -73,7 +73,8 @@ def test_parts_with_other_sample_times_are_resampled_in_one_step(studio: StudioP
     assert len(finer["resampled"]) == 3
     studio.ask("POST", f"{path}/undo")
     undone = studio.ask("POST", f"{path}/undo").content
-    assert [part["gait"]["name"] for part in undone["document"]["sequence"]] == ["Walk 10 mm", "Rotate 15°"]
+    names = [part["gait"]["name"] for part in undone["document"]["sequence"]]
+    assert names == ["Walk 10 mm", "Rotate 15°, as in the thesis"]
     assert studio.ask("POST", "/api/gaits/walk/sequence/resample", {}).status == 422
     assert studio.ask("POST", f"{path}/sequence/resample", {"sample_time": 0}).status == 422
 

@@ -12,16 +12,25 @@ import numpy as np
 import pytest
 
 from app.common.json import Json
+from app.documents.gait_json import gait_from_content
+from app.export.import_gait import gait_of_recording
 from app.gaits.live_plans import LivePlans
+from app.plans.sequence_plan import plan_of
 from app.remedies.run import RemedyParts
 from app.remedies.service import RemedyService
+from app.simulation.repository import SimulationRepository
+from app.store.database import DATABASE, Database
+from app.store.simulation_store import SimulationStore
 from core.gait.gait import Gait, heading_step
+from core.gait.recording import Recording, RecordingForm
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.robot.model import load_robot
-from solver_jobs import LiveSolver, PatternSolver, RemedyKind, Simulator, solve_pattern
+from core.wire.trajectory_csv import format_trajectory_csv
+from solver_jobs import LiveSolver, PatternSolver, RemedyKind, Simulator, solve_live, solve_pattern
 from solver_jobs.remedies.completion import completed_drawing, completion_question
 from tests.solver_jobs.remedies.test_remedies import painted
+from tests.support.beyond_range import lowered, recorded_gait
 
 WALK = library()["walk"].gait.with_options(margin=0.006)
 LONG = replace(WALK, step=heading_step(WALK.orientation, 0.030))
@@ -29,10 +38,17 @@ OVERLAPPING = painted(WALK, 1, 6, 12)
 
 
 @pytest.fixture(scope="module")
-def service() -> Iterator[RemedyService]:
+def simulations(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SimulationRepository]:
+    database = Database(tmp_path_factory.mktemp("remedies") / DATABASE)
+    yield SimulationRepository(SimulationStore(database))
+    database.close()
+
+
+@pytest.fixture(scope="module")
+def service(simulations: SimulationRepository) -> Iterator[RemedyService]:
     solver, patterns, simulator = LiveSolver(), PatternSolver(), Simulator()
     live = LivePlans(solver)
-    yield RemedyService(RemedyParts(live, solver, patterns, simulator))
+    yield RemedyService(RemedyParts(live, solver, patterns, simulator, simulations))
     for part in (solver, patterns, simulator):
         part.close()
 
@@ -131,3 +147,46 @@ def test_a_drawing_is_finished_with_one_swing_a_foot() -> None:
     assert (~gait.timeline.stance).sum(axis=0).max() == 1
     assert gait.options.margin == model.margin
     assert gait.timeline.sample_count == OVERLAPPING.timeline.sample_count
+
+
+def test_a_recording_beyond_the_range_gets_ways_to_keep_it_tried_in_physics_and_kept(
+    service: RemedyService, simulations: SimulationRepository
+) -> None:
+    gait = recorded_gait(0.002)
+    last = states_of(service, gait)[-1]
+    assert [one["kind"] for one in last["remedies"]] == ["recorded"] * 3
+    assert not last["searching"]
+    assert not last["trying"]
+    for one in last["remedies"]:
+        assert one["physics"]["walks"] is not None, one["label"]
+        changed = gait_from_content(one["document"], "document")
+        plan = plan_of(changed, lambda gait: None, lambda gait: solve_live)
+        assert plan.misfit is None
+        assert simulations.simulated(plan) is not None, "the page does not simulate it again"
+        standing = simulations.standing("another-gait", plan)
+        assert standing is not None
+        assert standing["fresh"]
+
+
+def test_a_recording_within_the_range_gets_none(service: RemedyService) -> None:
+    (state,) = states_of(service, recorded_gait(0.0))
+    assert state["remedies"] == []
+
+
+def test_heights_in_another_frame_come_first_and_say_what_is_left(service: RemedyService) -> None:
+    (first, *_) = states_of(service, recorded_gait(0.022))[-1]["remedies"]
+    assert first["label"] == "Correct the heights"
+    assert "20 mm too low" in first["sentence"]
+    assert "still beyond the motors' range" in first["caution"]
+    assert first["physics"] is None
+
+
+def test_a_recording_that_nothing_keeps_says_so(service: RemedyService) -> None:
+    motion = lowered(0.0)
+    feet = np.array(motion.feet_world)
+    feet[:, 2, 0] += 0.1
+    text = format_trajectory_csv(replace(motion, feet_world=feet))
+    gait = gait_of_recording(Recording("far.csv", RecordingForm.TRAJECTORY, text), "Far").gait
+    last = states_of(service, gait)[-1]
+    assert last["remedies"] == []
+    assert "Neither clipping nor raising" in last["sentence"]

@@ -48,6 +48,23 @@ def test_what_is_not_fit_is_not_sent(tmp_path: Path) -> None:
         ff.send(lifted, to="emulator", by="Ada", data=tmp_path)
 
 
+def test_errors_are_overridden_with_a_reason_alone(tmp_path: Path) -> None:
+    walk = ff.plan("walk-manual-2")
+    with pytest.raises(ff.CheckError, match=r"Not fit to send: .* Nothing was sent\."):
+        ff.send(walk, to="emulator", by="Ada", data=tmp_path)
+    with pytest.raises(ff.InputError, match="needs a reason"):
+        ff.send(walk, to="emulator", by="Ada", data=tmp_path, override=" ")
+    with pytest.raises(ff.InputError, match="No error stands that could be overridden"):
+        ff.send(BOW, to="emulator", by="Ada", data=tmp_path, override="It walked.")
+    far = BOW.copy()
+    far[1] = 0.021
+    with pytest.raises(ff.InputError, match=r"Errors of the rule “(stroke|deafness)” cannot be overridden"):
+        ff.send(far, to="emulator", by="Ada", data=tmp_path, override="It walked.")
+    assert not list(tmp_path.iterdir())
+    run = ff.send(walk, to="emulator", by="Ada", data=tmp_path, override="It walked.")
+    assert (run.state, run.reached) == ("done", len(walk.waypoints))
+
+
 def test_a_studio_is_begun_and_shows_the_gait(tmp_path: Path) -> None:
     begin = time.monotonic()
     page = ff.show("walk", data=tmp_path, opens_browser=False)

@@ -9,11 +9,14 @@ from functools import cache
 
 import pytest
 
-from app.cli.gait_motion import sending_of, trajectory_of
+from app.cli.gait_motion import trajectory_of
+from app.plans.plan import sending_of
 from app.simulation.problem import way_problem
 from core.checks.checked_plan import checked_plan
 from core.checks.made_plan import made_plan
+from core.checks.rocking import ROCKING_RULES
 from core.checks.rules import check_plan, check_waypoints
+from core.checks.simulation import Simulated
 from core.errors import InfeasibleError
 from core.findings import Finding, Severity, Verdict
 from core.gait.gait import Gait
@@ -31,7 +34,10 @@ from tests.support.studio_process import PROJECT
 
 COUPLED = tuple(name for name in ROBOT_NAMES if load_robot(name).is_coupled)
 SHORT = frozenset(
-    ("walk", "amble", "s-gait", "c-gait", "walk-manual-0", "amble-manual-1", "amble-order-3", "fast-c-gait")
+    (
+        *("walk", "amble", "s-gait", "c-gait", "amble-order-3", "fast-c-gait"),
+        *("walk-manual-0", "walk-manual-2", "amble-manual-1", "s-gait-manual-0"),
+    )
 )
 """Gaits of four-legged robots that are tried outside of a soak; of others all are."""
 NEAR = 0.1
@@ -44,6 +50,7 @@ class Verdicts:
 
     trajectory: Verdict
     waypoints: Verdict
+    simulated: Verdict
     figures: SimulationReport
     found: tuple[Finding, ...]
     estimate: float | None
@@ -51,6 +58,16 @@ class Verdicts:
     @property
     def walks(self) -> bool:
         return all(found.severity is not Severity.ERROR for found in self.found)
+
+    @property
+    def agree(self) -> bool:
+        """Whether all pass alike, but for a plan that tips and a robot that rocks and does not fall."""
+        if self.trajectory.passed == self.waypoints.passed == self.simulated.passed == self.walks:
+            return True
+        broken = {error.rule for error in self.trajectory.errors}
+        rocks = self.walks and not self.figures.fell and broken >= {"balance"}
+        others = broken - set(ROCKING_RULES)
+        return rocks and not self.waypoints.passed and self.simulated.passed == (not others)
 
 
 def gaits_for(robot: str) -> Iterator[str]:
@@ -75,9 +92,11 @@ def verdicts(robot: str, gait_id: str) -> Verdicts | None:
     problem = way_problem(model, motion, way, default_physics(model))
     figures = report(problem, simulate(problem))
     outcomes = physics_outcomes(figures, problem)
+    plan = checked_plan(gait, model, motion, way)
     return Verdicts(
-        check_plan(checked_plan(gait, model, motion, way)),
+        check_plan(plan),
         check_waypoints(model, way.waypoints),
+        check_plan(plan, Simulated(figures, problem)),
         figures,
         tuple(found for outcome in outcomes for found in outcome.findings),
         made_plan(model, motion, way).way.share if model.is_coupled else None,
@@ -91,7 +110,7 @@ def test_no_verdict_passes_what_another_one_does_not(robot: str) -> None:
     contradictions = []
     for gait_id in gaits_for(robot):
         of = verdicts(robot, gait_id)
-        if of is not None and not of.trajectory.passed == of.waypoints.passed == of.walks:
+        if of is not None and not of.agree:
             contradictions.append((gait_id, of.trajectory.passed, of.waypoints.passed, of.walks))
     assert contradictions == []
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from core.library.library import Group, group_ids, library
@@ -28,3 +29,13 @@ def test_the_first_is_the_fast_c_gait() -> None:
     assert poses is not None
     assert first.id == "fast-c-gait"
     assert poses.speed > 0.0022
+
+
+def test_the_rotation_makes_three_turns_of_15_degrees_as_the_drawn_one_does() -> None:
+    rotation, drawn = library()["rotate-45"].gait, library()["rotate"].gait
+    assert rotation.order == drawn.order
+    assert rotation.step == pytest.approx(drawn.step)
+    poses = found_gait(rotation, load_robot(rotation.robot))
+    assert poses is not None
+    assert np.degrees(poses.turn * rotation.iterations) == pytest.approx(45.0)
+    assert drawn.poses is None

@@ -1,4 +1,4 @@
-"""The dialog *Fastest gait*: prices, the search with its front, and a gait made of what is chosen."""
+"""The dialogs *Rotate* and *Fastest gait*: prices, the search with its front, gaits made of choices."""
 
 from __future__ import annotations
 
@@ -65,6 +65,29 @@ def test_a_gait_is_made_of_what_is_chosen_and_shown(page: Page) -> None:
     expect(page.get_by_label("Gait name")).to_have_value("Amble, fastest")
     expect(page.get_by_label("Foot order")).to_have_value("1 4 2 3")
     expect(page.get_by_role("spinbutton", name="Iterations")).to_have_value("2")
+
+
+@pytest.mark.heavy
+def test_a_rotation_is_made_by_its_degrees_and_solved(page: Page) -> None:
+    page.get_by_role("button", name="New", exact=True).click()
+    page.get_by_role("menuitem", name="Rotate").click()
+    dialog = page.get_by_role("dialog", name="Rotate on the spot")
+    turn, cycles = dialog.get_by_label("Turn", exact=True), dialog.get_by_label("Cycles")
+    expect(turn).to_have_value("45")
+    turn.fill("0")
+    expect(dialog.get_by_role("alert")).to_have_text(re.compile("^Turn is 0°"))
+    turn.fill("-200")
+    cycles.fill("2")
+    expect(dialog.get_by_role("alert")).to_have_text(re.compile("^Each cycle would turn 100.0°"))
+    assert findings(page) == []
+    turn.fill("-40")
+    expect(dialog.get_by_role("status")).to_have_text(re.compile("turns 20.0° to the right"))
+    dialog.get_by_role("button", name="Create").click()
+    expect(page.get_by_label("Gait name")).to_have_value("Rotate 40° right")
+    expect(page.get_by_label("Foot order")).to_have_value("1 2 3 4")
+    expect(page.get_by_role("spinbutton", name="Iterations")).to_have_value("2")
+    line = page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Rotate 40°"))
+    expect(line).to_contain_text("°/s", timeout=120_000)
 
 
 @pytest.mark.heavy

@@ -77,13 +77,13 @@ def test_times_out_of_range_stay_with_the_reason(page: Page, studio: StudioProce
 @pytest.mark.heavy
 def test_a_sequence_is_made_from_the_shown_gait_and_grows(page: Page, studio: StudioProcess) -> None:
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Rotate 15°")).click()
-    expect(page.get_by_label("Gait name")).to_have_value("Rotate 15°")
+    expect(page.get_by_label("Gait name")).to_have_value("Rotate 15°, as in the thesis")
     page.get_by_role("button", name="New", exact=True).click()
     page.get_by_role("menuitem", name="New sequence").click()
     expect(rows(page)).to_have_count(1)
     page.get_by_label("Times of part 1").fill("3")
     page.get_by_label("Times of part 1").press("Enter")
-    expect(undo(page)).to_contain_text("run Rotate 15° 3×")
+    expect(undo(page)).to_contain_text("run Rotate 15°, as in the thesis 3×")
     page.get_by_label("Gait to add").select_option("walk")
     place = page.get_by_role("button", name="Add", exact=True).bounding_box()
     page.get_by_role("button", name="Add", exact=True).click()
@@ -91,7 +91,7 @@ def test_a_sequence_is_made_from_the_shown_gait_and_grows(page: Page, studio: St
     whole = page.get_by_label("The whole sequence")
     expect(whole).to_contain_text(re.compile("Turn45°"))
     expect(whole).to_contain_text("10.0 mm")
-    expect(page.locator("#parts .stretch")).to_have_text(["Rotate 15° 3×", "Walk 10 mm"])
+    expect(page.locator("#parts .stretch")).to_have_text(["Rotate 15°, as in the thesis 3×", "Walk 10 mm"])
     assert page.get_by_role("button", name="Add", exact=True).bounding_box() == place
     assert sources(studio, "sequence") == ["rotate", "walk"]
 

@@ -324,7 +324,7 @@ def test_the_legend_is_of_the_iteration_looked_at_and_escape_leaves(page: Page) 
 def test_a_focused_number_follows_another_tab_but_not_while_it_is_typed(
     page: Page, studio: StudioProcess
 ) -> None:
-    choose(page, "Rotate 15°")
+    choose(page, "Rotate 15°, as in the thesis")
     margin = number(page, "Stability margin")
     margin.focus()
     change_elsewhere(studio, 0.002)

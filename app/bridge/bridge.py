@@ -19,6 +19,7 @@ from app.bridge.stop_confirmation import STOP_LIMIT
 from app.bridge.transport import Transport
 from app.bridge.write_gate import Clock, Log, WriteGate
 from core.errors import RobotError, StateError
+from core.robot.model import RobotModel
 
 logger = logging.getLogger(__name__)
 
@@ -47,10 +48,6 @@ class _HungUp:
     reason: str
 
 
-def _log_nothing(direction: Direction, data: bytes, when: float) -> None:
-    del direction, data, when
-
-
 class RobotBridge:
     """The robot for the rest of the program; every method may be called from any thread.
 
@@ -63,7 +60,7 @@ class RobotBridge:
 
     def __init__(
         self,
-        log: Log = _log_nothing,
+        log: Log = lambda direction, data, when: None,
         *,
         clock: Clock = time.monotonic,
         tick: float = TICK,
@@ -86,8 +83,6 @@ class RobotBridge:
         self._closing = False
         self._worker = threading.Thread(target=self._work, name="robot bridge", daemon=True)
         self._worker.start()
-
-    # Watching
 
     @property
     def snapshot(self) -> RobotSnapshot:
@@ -118,8 +113,6 @@ class RobotBridge:
 
         return unsubscribe
 
-    # The link
-
     def connect(self, device: str) -> None:
         """Opens the line; the link is ready when the robot answers, which the snapshot tells.
 
@@ -143,7 +136,7 @@ class RobotBridge:
     def disconnect(self) -> None:
         """Closes the line; a run under way is stopped first, and waited for as long as a ramp may last.
 
-        Who calls it while another does waits for that, and closes no line that was opened meanwhile.
+        A second caller waits for the first and leaves any newly opened line alone.
         """
         line = self._lines_opened
         with self._leaving:
@@ -157,8 +150,6 @@ class RobotBridge:
             self._closing = True
         self._inbox.put(None)
         self._worker.join()
-
-    # The robot
 
     def arm(self, by: str) -> None:
         """Lets the robot be moved by `send` and `reset`.
@@ -271,6 +262,18 @@ class RobotBridge:
             InputError: a stroke cannot be sent.
         """
         self._do(lambda now: self._machine.jog(plan, by, now))
+
+    def test_motors(self, model: RobotModel, by: str) -> None:
+        """Tests one motor after the other by a small move out and back; the snapshot has the verdicts.
+
+        Raises:
+            StateError: the robot is not armed, or has not told its strokes.
+        """
+        self._do(lambda now: self._machine.test_motors(model, by, now))
+
+    def end_early(self) -> None:
+        """Ends a jog after the move that is on, a motor test after its motor; the robot stays armed."""
+        self._do(lambda now: self._machine.end_early())
 
     # Inside
 

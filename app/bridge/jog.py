@@ -87,6 +87,10 @@ class Jog:
         """Counts the move in flight as reached."""
         self._reached += 1
 
+    def end_early(self) -> None:
+        """Leaves out the moves that were not sent."""
+        del self._moves[self._sent :]
+
     def progress(self) -> JogProgress:
         """What to show of it."""
         return JogProgress(self._plan.text, self._by, self._reached, len(self._moves), self._largest)

@@ -21,11 +21,13 @@ from app.bridge.delivery import (
 from app.bridge.jog import Jog, JogPlan
 from app.bridge.link import RobotLink
 from app.bridge.messages import NOT_SENT, SENTENCES, clearing_sentence
+from app.bridge.motor_test import MotorTest
 from app.bridge.run import Move, Run
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan
 from app.bridge.telemetry import STALE_TIME
 from app.bridge.write_gate import MessageKind, WriteGate
 from core.errors import RobotError, StateError
+from core.robot.model import RobotModel
 from core.wire.lines import Line
 from core.wire.messages import (
     HIGHEST_MM,
@@ -49,6 +51,8 @@ class RobotStateMachine(RobotLink):
         super().__init__(gate)
         self._run: Run | None = None
         self._jog: Jog | None = None
+        self._test: MotorTest | None = None
+        self._last_test: MotorTest | None = None
         self._delivery: Delivery | None = None
         self._permit = -1
         self._numbers = itertools.count(1)
@@ -69,6 +73,7 @@ class RobotStateMachine(RobotLink):
             measured_scan=self.monitor.longest_scan,
             number=next(self._numbers),
             jog=None if self._jog is None else self._jog.progress(),
+            motor_test=None if self._last_test is None else self._last_test.progress(),
         )
 
     def tick(self, now: float) -> None:
@@ -132,11 +137,30 @@ class RobotStateMachine(RobotLink):
         self.become(now, f"Jog by {by}: {plan.text}.", f"Jog: {plan.text}.", robot=RobotState.MOVING)
         self._send_jog(now)
 
+    def test_motors(self, model: RobotModel, by: str, now: float) -> None:
+        """Moves one motor after the other out and back, and tells what is wrong with each."""
+        self.require_link("tested")
+        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then test its motors.")
+        self._measured_now(now)
+        self._test = self._last_test = MotorTest(model, by)
+        self._run = None
+        sentence = "Motor test: one motor after the other moves out and back."
+        self.become(now, f"Motor test by {by}.", sentence, robot=RobotState.MOVING)
+        self._go_on_testing(self._test, None, now)
+
+    def end_early(self) -> None:
+        """Ends a jog after the move that is on, a motor test after the motor that is being tested."""
+        if self._test is not None:
+            self._test.end_early()
+        if self._jog is not None:
+            self._jog.end_early()
+        self.revision += 1
+
     def pause(self, by: str, now: float) -> None:
         """Ends the movement at the next pose with all feet down."""
         self.require_robot(RobotState.MOVING, remedy="Only a run that moves can be paused.")
         if self._run is None:
-            what = "reset" if self._jog is None else "jog"
+            what = "jog" if self._jog is not None else "motor test" if self._test is not None else "reset"
             raise StateError(f"A {what} cannot be paused. Stop it instead.")
         self.become(now, f"Pause by {by}.", SENTENCES[RobotState.PAUSING], robot=RobotState.PAUSING)
 
@@ -192,6 +216,8 @@ class RobotStateMachine(RobotLink):
         if self._delivery is not None:
             self._delivery.see(line)
             self._finish_delivery(now)
+        elif self._test is not None:
+            self._go_on_testing(self._test, line, now)
 
     def _send_next(self, now: float) -> None:
         if self._run is None:
@@ -237,6 +263,8 @@ class RobotStateMachine(RobotLink):
             self._delivery = None
             if self._clearing:
                 self._go_on_clearing(delivery, now)
+            elif self._test is not None:
+                self._go_on_testing(self._test, None, now)
             elif self._jog is not None:
                 self._go_on_jogging(self._jog, now)
             else:
@@ -273,6 +301,21 @@ class RobotStateMachine(RobotLink):
         else:
             self._send_jog(now)
 
+    def _go_on_testing(self, test: MotorTest, line: Line | None, now: float) -> None:
+        before = test.progress()
+        try:
+            order = test.advance(line)
+        except RobotError as error:
+            self._fail(error.sentence, now)
+            return
+        if order is not None:
+            target = order.target_mm or self._measured()
+            self._deliver(order.message, target, order.stages, now, kind=MessageKind.TEST)
+        elif test.finished:
+            self._test = None
+            self.become(now, "Motor test done.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+        self.revision += test.progress() != before
+
     def _go_on_clearing(self, delivery: Delivery, now: float) -> None:
         if delivery.payload.startswith("p"):
             self._deliver(
@@ -288,12 +331,15 @@ class RobotStateMachine(RobotLink):
 
     @property
     def _place(self) -> str:
-        work = self._jog or self._run
+        work = self._test or self._jog or self._run
         return work.place if work is not None and self.in_run else ""
 
     def _drop_run(self, now: float) -> None:
         self._delivery = None
         self._jog = None
+        if self._test is not None:
+            self._test.end()
+            self._test = None
         self._clearing = False
         self._permit = -1
         if self._run is not None:

@@ -6,6 +6,7 @@ from enum import StrEnum
 from app.bridge.run_range import WHOLE, RunRange
 from core.errors import InputError
 from core.findings import Approval
+from core.jog.motor_test import TEST_MOVE, MotorFinding
 from core.wire.waypoints import Waypoints
 
 
@@ -34,7 +35,7 @@ class RobotState(StrEnum):
 
 
 IN_RUN = frozenset({RobotState.MOVING, RobotState.PAUSING, RobotState.PAUSED})
-"""States in which a run, a reset or a jog is under way."""
+"""States in which a run, a reset, a jog or a motor test is under way."""
 
 
 class RunPhase(StrEnum):
@@ -126,6 +127,35 @@ class JogProgress:
     largest_move: float
 
 
+class MotorTestState(StrEnum):
+    """How far a motor test is."""
+
+    RUNNING = "running"
+    DONE = "done"
+    CANCELLED = "cancelled"
+    STOPPED = "stopped"
+    """By Stop, a fault or a lost cable."""
+
+
+@dataclass(frozen=True)
+class MotorTestProgress:
+    """How far a motor test has come.
+
+    Args:
+        by: who tests.
+        state: how far it is.
+        motor: 0-based motor under test; None after the end.
+        findings: of the motors so far, in their order.
+        largest_move: largest distance of a motor in one ramp as it is sent, m.
+    """
+
+    by: str
+    state: MotorTestState
+    motor: int | None
+    findings: tuple[MotorFinding, ...]
+    largest_move: float = TEST_MOVE
+
+
 @dataclass(frozen=True)
 class RobotSnapshot:
     """Everything there is to show about the robot at one moment.
@@ -143,6 +173,7 @@ class RobotSnapshot:
         measured_scan: longest error scan seen since connecting, s (see `core.wire.robot_time.stop_time`).
         number: counts the snapshots of a bridge, so that who gets two knows the later one.
         jog: the steps by hand that are under way.
+        motor_test: the motor test that is under way or was the last.
     """
 
     link: LinkState
@@ -157,6 +188,7 @@ class RobotSnapshot:
     measured_scan: float | None
     number: int
     jog: JogProgress | None = None
+    motor_test: MotorTestProgress | None = None
 
 
 @dataclass(frozen=True)

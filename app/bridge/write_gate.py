@@ -24,6 +24,7 @@ class MessageKind(Enum):
 
     WAYPOINT = ("an approved waypoint, or on the slow way to one", (b"<p,1,",))
     JOG = ("a step by hand", (b"<p,1,",))
+    TEST = ("a message of the motor test", (b"<p,1,", b"<s,1>", b"<s,0>"))
     RESET = ("a reset", (b"<r>",))
     CLEAR = ("the clearing of a stop", (b"<p,1,", b"<s,0>"))
 

@@ -5,7 +5,7 @@ import re
 import signal
 import sys
 import threading
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from datetime import UTC, datetime
 from pathlib import Path
 from types import FrameType
@@ -19,7 +19,7 @@ from app.cli.served_cameras import served_cameras
 from app.cli.streaming import run_of_file, stream
 from app.common.signals import ending_signals
 from app.emulator.emulated_robot import start_emulator
-from app.emulator.faults import Fault
+from app.emulator.faults import Fault, FaultRequest
 from app.emulator.profiles import ProfileName
 from app.export.trajectory_files import read_waypoints
 from app.gaits.verdict_views import approval_view, override_view, override_words, verdict_view
@@ -106,7 +106,22 @@ def emulate_command(parser: ArgumentParser) -> None:
     add("--tcp", type=whole(0, 65535), default=None, metavar="PORT", help="a port, 0 any free")
     add("--profile", type=one_of(ProfileName), metavar=words_of(ProfileName), default="published")
     add("--speed", type=number(0.01, 1000.0, ""), default=1.0)
-    add("--fault", type=one_of(Fault), metavar=words_of(Fault), nargs="+", default=[])
+    add(
+        "--fault",
+        type=_fault,
+        metavar=words_of(Fault),
+        nargs="+",
+        default=[],
+        help="of motors also with their numbers: stuck-motor:5, swapped-motors:4,5",
+    )
+
+
+def _fault(text: str) -> FaultRequest:
+    """An argument type: a fault, of motors also with their numbers."""
+    try:
+        return FaultRequest.parse(text)
+    except InputError as error:
+        raise ArgumentTypeError(error.sentence) from None
 
 
 def run_emulate(options: Namespace) -> int:

@@ -4,7 +4,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from app.emulator.faults import STRIKE_ONCE, Fault, Troubles
+from app.emulator.faults import STRIKE_ONCE, FaultRequest, Troubles
 from app.emulator.firmware import Firmware
 from app.emulator.ports import Port, PtyPort, TcpPort
 from app.emulator.profiles import PROFILES, ProfileName
@@ -95,7 +95,7 @@ class EmulatedRobot:
         port: Port,
         *,
         pace: Pace | None = None,
-        faults: Iterable[Fault] = (),
+        faults: Iterable[FaultRequest] = (),
         booted: bool = False,
         seed: int = 0,
     ) -> None:
@@ -105,7 +105,7 @@ class EmulatedRobot:
         self._pace = pace or RealTime()
         self._pending = set(faults)
         self._booted = booted
-        self._asked: list[Fault | None] = []
+        self._asked: list[FaultRequest | None] = []
         self._troubles = Troubles(firmware, port.close, seed)
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._live, name="emulated robot", daemon=True)
@@ -116,7 +116,7 @@ class EmulatedRobot:
         """What a host opens: a path, or `socket://…`."""
         return self._port.device
 
-    def inject(self, fault: Fault) -> None:
+    def inject(self, fault: FaultRequest) -> None:
         """Makes something go wrong at once."""
         self._asked.append(fault)
 
@@ -158,15 +158,17 @@ class EmulatedRobot:
         board.inbox += self._troubles.to_robot.carry(self._port.read(), now)
 
     def _strike(self) -> None:
-        due = self._pending if self._is_time() else self._pending - STRIKE_ONCE
-        self._asked.extend(sorted(due))
+        is_time = self._is_time()
+        due = {one for one in self._pending if is_time or one.fault not in STRIKE_ONCE}
+        in_order = sorted(due, key=lambda one: one.fault)
+        self._asked.extend(in_order)
         self._pending -= due
         while self._asked:
-            fault = self._asked.pop(0)
-            if fault is None:
+            request = self._asked.pop(0)
+            if request is None:
                 self._troubles.mend()
             else:
-                self._troubles.strike(fault)
+                self._troubles.strike(request.fault, request.motors)
 
     def _is_time(self) -> bool:
         taken = [m.time for m in self.firmware.messages if m.strokes_mm is not None]
@@ -180,7 +182,7 @@ def start_emulator(
     speed: float = 1.0,
     *,
     tcp: int | None = None,
-    faults: Iterable[Fault] = (),
+    faults: Iterable[FaultRequest] = (),
     booted: bool = False,
     strokes_mm: Sequence[float] = (RESET_MM,) * MOTORS,
 ) -> EmulatedRobot:

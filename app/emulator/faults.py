@@ -7,10 +7,13 @@ import math
 import random
 from collections import deque
 from collections.abc import Callable
+from dataclasses import dataclass
 from enum import StrEnum
-from typing import Protocol
+from typing import Protocol, Self
 
 from app.emulator.firmware import Firmware
+from core.errors import InputError
+from core.wire.messages import MOTORS
 
 DROP_CHANCE, GARBLE_CHANCE = 0.002, 0.002
 """Chance of a byte to be lost, or to have one of its bits flipped."""
@@ -28,9 +31,6 @@ NOISE_MM = 0.02
 WEAK_SHARE = 0.35
 """Speed of a weak motor as a share of a sound one's."""
 
-WEAK_MOTOR, STUCK_MOTOR, DEAD_POT_MOTOR = 7, 4, 1
-"""0-based motors that the faults take where none is named."""
-
 
 class Fault(StrEnum):
     """What can go wrong on request; stall, unplug and reset strike once, the others last until mended."""
@@ -45,10 +45,62 @@ class Fault(StrEnum):
     WEAK_MOTOR = "weak-motor"
     STUCK_MOTOR = "stuck-motor"
     DEAD_POT = "dead-pot"
+    REVERSED_MOTOR = "reversed-motor"
+    SWAPPED_MOTORS = "swapped-motors"
     NOISE = "noise"
 
 
 STRIKE_ONCE = frozenset({Fault.STALL, Fault.UNPLUG, Fault.RESET})
+
+USUAL_MOTORS: dict[Fault, tuple[int, ...]] = {
+    Fault.WEAK_MOTOR: (7,),
+    Fault.STUCK_MOTOR: (4,),
+    Fault.DEAD_POT: (1,),
+    Fault.REVERSED_MOTOR: (6,),
+    Fault.SWAPPED_MOTORS: (3, 4),
+}
+"""0-based motors that the faults of motors take where none are named."""
+
+
+@dataclass(frozen=True)
+class FaultRequest:
+    """A fault and the motors that it strikes.
+
+    Args:
+        fault: what goes wrong.
+        motors: 0-based motors of a fault of motors; its usual ones where none are named.
+
+    Raises:
+        InputError: a fault of the cable names motors, or one of motors other than it has.
+    """
+
+    fault: Fault
+    motors: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        count = len(USUAL_MOTORS.get(self.fault, ()))
+        if not self.motors:
+            return
+        if len(self.motors) != count or len(set(self.motors)) != count:
+            need = f"names {count} different motors" if count > 1 else "names one motor" if count else ""
+            raise InputError(f"The fault {self.fault} {need or 'has no motors; leave them out'}.", "motors")
+        if not all(0 <= motor < MOTORS for motor in self.motors):
+            named = ", ".join(str(motor + 1) for motor in self.motors)
+            raise InputError(f"Motors are 1 to {MOTORS}; the fault {self.fault} names {named}.", "motors")
+
+    @classmethod
+    def parse(cls, text: str) -> Self:
+        """Reads `NAME` or `NAME:MOTORS`, as `swapped-motors:4,5`, with motors from 1.
+
+        Raises:
+            InputError: there is no such fault, or it has no such motors.
+        """
+        name, _, motors = text.partition(":")
+        if name not in list(Fault):
+            raise InputError(f"There is no fault {name}; choose one of {', '.join(Fault)}.", "fault")
+        if motors and not all(one.strip().isdecimal() for one in motors.split(",")):
+            raise InputError(f"{motors} are no motors; write as in {name}:4.", "fault")
+        return cls(Fault(name), tuple(int(one) - 1 for one in motors.split(",")) if motors else ())
 
 
 class Spoiler(Protocol):
@@ -204,12 +256,12 @@ class Troubles:
         self._unplug = unplug
         self._dice = random.Random(seed)
 
-    def strike(self, fault: Fault, motor: int | None = None) -> None:
+    def strike(self, fault: Fault, motors: tuple[int, ...] = ()) -> None:
         """Makes something go wrong from now on.
 
         Args:
             fault: what.
-            motor: 0-based motor, for the faults of one motor; one of their own if None.
+            motors: 0-based motors of a fault of motors; its usual ones where none are named.
         """
         if fault in SPOILERS:
             for cable in (self.to_robot, self.to_host):
@@ -217,7 +269,7 @@ class Troubles:
         elif fault in STRIKE_ONCE:
             self._strike_once(fault)
         else:
-            self._strike_motors(fault, motor)
+            self._strike_motors(fault, motors or USUAL_MOTORS.get(fault, ()))
 
     def mend(self) -> None:
         """Ends what lasts: the cable is whole and the motors are sound again."""
@@ -233,14 +285,19 @@ class Troubles:
         else:
             self._unplug()
 
-    def _strike_motors(self, fault: Fault, motor: int | None) -> None:
+    def _strike_motors(self, fault: Fault, struck: tuple[int, ...]) -> None:
         motors, now_us = self._firmware.board.motors, self._firmware.board.now_us
-        if fault is Fault.WEAK_MOTOR:
-            motors.weaken(WEAK_MOTOR if motor is None else motor, WEAK_SHARE, now_us)
-        elif fault is Fault.STUCK_MOTOR:
-            motors.jam(STUCK_MOTOR if motor is None else motor, now_us)
-        elif fault is Fault.DEAD_POT:
-            motors.blind(DEAD_POT_MOTOR if motor is None else motor, now_us)
-        else:
-            dice = random.Random(self._dice.random())
-            motors.disturb(lambda: dice.gauss(0.0, NOISE_MM))
+        match fault:
+            case Fault.WEAK_MOTOR:
+                motors.weaken(struck[0], WEAK_SHARE, now_us)
+            case Fault.REVERSED_MOTOR:
+                motors.weaken(struck[0], -1.0, now_us)
+            case Fault.STUCK_MOTOR:
+                motors.jam(struck[0], now_us)
+            case Fault.DEAD_POT:
+                motors.blind(struck[0], now_us)
+            case Fault.SWAPPED_MOTORS:
+                motors.swap(struck[0], struck[1], now_us)
+            case _:
+                dice = random.Random(self._dice.random())
+                motors.disturb(lambda: dice.gauss(0.0, NOISE_MM))

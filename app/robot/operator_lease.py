@@ -105,6 +105,13 @@ class OperatorLease:
         if is_back:
             self._changed()
 
+    def page_left(self, page: str) -> None:
+        """A page lost its events, so its keys drive no further: a jog of the holder ends early."""
+        with self._lock:
+            holder = self._lease.now.holder
+        if holder is not None and holder.page == page and self._bridge.snapshot.jog is not None:
+            self._bridge.end_early()
+
     def ask(self, author: Author) -> None:
         """Asks for the robot; see `Lease.ask`."""
         self._do(lambda: self._lease.ask(person(author)))
@@ -223,9 +230,12 @@ class OperatorLease:
             self._hold_on(holder)
 
     def _hold_on(self, holder: Person) -> None:
-        """The stated policy: on to the next pose with all feet down, and wait there."""
+        """The stated policy: on to the next pose with all feet down, and wait there; all else ends early."""
+        now = self._bridge.snapshot
         try:
-            if self._bridge.snapshot.robot is RobotState.MOVING:
+            if now.run is None:
+                self._bridge.end_early()
+            elif now.robot is RobotState.MOVING:
                 self._bridge.pause(f"the studio, as {holder.title} is gone")
         except StateError as refused:  # the run ended meanwhile, or it is a reset, which ends by itself
             logger.info("Not paused although %s is gone: %s", holder.title, refused.sentence)

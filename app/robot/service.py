@@ -12,7 +12,7 @@ from app.bridge.states import LinkState, RobotSnapshot, RunPlan
 from app.bridge.stop_confirmation import STOP_LIMIT
 from app.common.json import Json
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
-from app.emulator.faults import Fault
+from app.emulator.faults import FaultRequest
 from app.gaits.open_gait import OpenGait
 from app.plans.plan import Plan
 from app.robot.measured import MeasuredRobot, measured_robot
@@ -165,7 +165,7 @@ class RobotService:
         finally:
             self._connecting.release()
 
-    def strike(self, fault: Fault | None) -> None:
+    def strike(self, fault: FaultRequest | None) -> None:
         """Injects a fault into the emulated robot, or ends all lasting faults.
 
         Raises:

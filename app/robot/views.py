@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
+from app.bridge.states import LinkState, MotorTestState, RobotSnapshot, RobotState, RunProgress
 from app.bridge.stop_confirmation import STOP_LIMIT
 from app.common.json import Json
 from app.emulator.motors import TRAVEL_MM
@@ -105,6 +105,8 @@ def _stop_seconds(shown: RobotSnapshot, origin: RunOrigin | None) -> float | Non
     """The same of what is on or was the last; a reset is one move, which nothing cuts."""
     if shown.jog is not None:
         return jog_stop_seconds(shown.jog.largest_move, shown)
+    if shown.motor_test is not None and shown.motor_test.state is MotorTestState.RUNNING:
+        return jog_stop_seconds(shown.motor_test.largest_move, shown)
     if shown.run is None and shown.robot in RUNNING:
         return robot_time.stop_seconds(RESET_DISTANCE, _scan(shown), off=0.0)
     return None if origin is None else stop_seconds(origin.waypoints, shown)
@@ -182,6 +184,7 @@ def allowed(snapshot: RobotSnapshot) -> dict[str, str | None]:
         "clear": only({RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING}, "Nothing is stopped."),
         "reset": only({RobotState.ARMED}, "Arm the robot first."),
         "jog": only({RobotState.ARMED}, _why_not_jog(robot)),
+        "motor_test": only({RobotState.ARMED}, _why_not_jog(robot)),
     }
 
 

@@ -26,7 +26,7 @@ from app.routes.gaits import segment_tables as tables
 from app.routes.lab import camera_setups as setups
 from app.routes.lab import cameras, learning, trial_comparisons, trial_photos, trials, videos
 from app.routes.patterns import search as patterns
-from app.routes.robot import jog, robot, runs
+from app.routes.robot import jog, motor_test, robot, runs
 from app.routes.viser_proxy import make_viser_router
 from app.scene.registry import Scenes
 from app.server.admission import Admission
@@ -55,6 +55,7 @@ _ROUTERS = (
     patterns.router,
     robot.router,
     jog.router,
+    motor_test.router,
     runs.router,
     simulations.router,
     tables.router,

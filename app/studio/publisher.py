@@ -204,6 +204,10 @@ class Publisher:
         """Shows the robot to every page."""
         self._hub.publish({"type": "robot", "robot": view})
 
+    def publish_motor_test(self, view: Json) -> None:
+        """Shows the motor test to every page."""
+        self._hub.publish({"type": "motor_test", "motor_test": view})
+
     def tell_page(self, page: str, event: Json) -> None:
         """Sends an event to one page."""
         self._hub.publish(event, page)

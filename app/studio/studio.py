@@ -26,6 +26,7 @@ from app.pattern_search.service import PatternSearchService
 from app.remedies.run import RemedyParts
 from app.remedies.service import RemedyService
 from app.robot.jog_service import JogService
+from app.robot.motor_test_service import MotorTestService
 from app.robot.ports import RobotPorts
 from app.robot.service import RobotService
 from app.robot.views import RUNNING
@@ -191,6 +192,7 @@ class Studio:
         show, tell_page = self.publisher.publish_robot, self.publisher.tell_page
         self.robot = self._register(RobotService(self._database, device, show, ports, tell_page))
         self.jog = JogService(self.robot.bridge)
+        self.motor_test = MotorTestService(self.robot.bridge, self.publisher.publish_motor_test)
         self.robot.bridge.subscribe(self.lab.recordings.follow)
 
     def close(self) -> None:
@@ -231,12 +233,14 @@ class Studio:
 
     def hello(self) -> Json:
         """The first event for a page: the whole state that it renders."""
-        return self.publisher.hello(self.robot.view()) | {"storage": self.storage.view()}
+        rest = {"storage": self.storage.view(), "motor_test": self.motor_test.view()}
+        return self.publisher.hello(self.robot.view()) | rest
 
     def page_came_or_went(self, page: str) -> None:
         """Updates what the other pages can undo: anybody may undo the edits of a page that is gone."""
         if page not in self.hub.pages():
             self.patterns.forget(page)
+            self.robot.lease.page_left(page)
         self.publisher.publish_steps(page)
 
     def _storage_changed(self, view: Json) -> None:

@@ -10,7 +10,7 @@ from app.bench.robot.auditor import Auditor, Findings
 from app.bridge.messages import NOT_STOPPED
 from app.bridge.states import IN_RUN, LinkState, RobotState, RunPlan
 from app.bridge.stop_confirmation import STOP_LIMIT
-from app.emulator.faults import Fault
+from app.emulator.faults import USUAL_MOTORS, Fault
 from app.emulator.profiles import ProfileName
 from app.emulator.virtual_link import VirtualLink
 from core.arrays import Floats
@@ -39,7 +39,7 @@ the second if it is cleared, mm and s."""
 SETTLED = 8.0
 """From power-on to an idle robot, s."""
 
-NEEDS_POWER_CYCLE = frozenset({Fault.STALL, Fault.RESET, Fault.STUCK_MOTOR, Fault.WEAK_MOTOR, Fault.DEAD_POT})
+NEEDS_POWER_CYCLE = frozenset({Fault.STALL, Fault.RESET, *USUAL_MOTORS})
 """Faults that only a power cycle ends: a dead program and wound-up controllers (docs/firmware.md, hazard 11).
 
 A robot that is shown as NOT STOPPED needs it too: a lost decimal point lets it move for hours (hazard 12)."""
@@ -147,12 +147,12 @@ class SoakRound:
             self._findings.skipped += run is None or run.reached < plan.waypoints.count
 
     def _strike(self) -> None:
-        motor = self._dice.randrange(MOTORS)
+        motors = tuple(self._dice.sample(range(MOTORS), len(USUAL_MOTORS.get(self._fault, ()))))
         if self._fault is Fault.DEAD_POT:
-            self._auditor.blind_motors.add(motor)
+            self._auditor.blind_motors.update(motors)
         if self._fault is Fault.UNPLUG:
             self._auditor.show(self._bridge.now)
-        self._bridge.troubles.strike(self._fault, motor)
+        self._bridge.troubles.strike(self._fault, motors)
 
     def _recover(self) -> None:
         """What a person would do: mend it, cut the power where the program is dead, connect, clear."""

@@ -1,1 +1,1 @@
-"""HTTP routes of the robot: actions, jog, faults of the emulator, and the archive of runs."""
+"""HTTP routes of the robot: actions, jog, motor test, faults of the emulator, and the archive of runs."""

@@ -98,6 +98,17 @@ async def jog(studio: TheStudio, author: TheAuthor, wish: JogBody) -> dict[str, 
     return studio.robot.view()
 
 
+@router.post("/jog/end")
+async def end_jog(studio: TheStudio) -> dict[str, Any]:
+    """Ends a jog early: the move that is on goes to its end, no further one is sent, the robot stays armed.
+
+    Anybody may do it, as with Stop. Without a jog it does nothing.
+    """
+    if studio.robot.bridge.snapshot.jog is not None:
+        await run_in_threadpool(studio.robot.bridge.end_early)
+    return studio.robot.view()
+
+
 @router.post("/jog/ghost", response_class=Response)
 async def ghost(studio: TheStudio, target: Ghost) -> Response:
     """The robot at the target as poses of lines; binary, laid out as those of a plan."""

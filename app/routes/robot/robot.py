@@ -13,7 +13,7 @@ from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
 from app.common.json import Json
-from app.emulator.faults import Fault
+from app.emulator.faults import Fault, FaultRequest
 from app.scene.poses import pose_frames
 from app.studio.studio import Studio
 from app.undo.history import Author
@@ -54,6 +54,8 @@ class FaultBody(RequestBody):
     """Which fault strikes; `none` ends those that last."""
 
     name: Fault | Literal["none"]
+    motors: list[int] = Field(default=[], max_length=2)
+    """Which motors, from 1; of a fault of motors, its usual ones where none are named."""
 
 
 async def _moved(
@@ -236,6 +238,7 @@ async def hand_over(studio: TheStudio, author: TheAuthor, act: HandOver, actor_b
 @router.post("/fault")
 async def strike(studio: TheStudio, wish: FaultBody) -> Json:
     """Has something go wrong with the emulated robot at once; a real one is never touched."""
-    fault = None if wish.name == "none" else wish.name
+    motors = tuple(motor - 1 for motor in wish.motors)
+    fault = None if wish.name == "none" else FaultRequest(wish.name, motors)
     await run_in_threadpool(studio.robot.strike, fault)
     return studio.robot.view()

@@ -14,7 +14,9 @@ import { needOperator } from "../state/operator.js";
 import { overrideNote } from "../state/override.js";
 import { commandedStrokes } from "../state/plan_samples.js";
 import { acceptRobot, planIsOn, runIsOn, stopLimit } from "../state/store.js";
+import { drivePart } from "./drive.js";
 import { jogPart } from "./jog.js";
+import { motorTestPart } from "./motor_test.js";
 import { portChooser } from "./ports.js";
 import { robotLog } from "./robot_log.js";
 import { runningPart } from "./running.js";
@@ -168,14 +170,14 @@ function assemble({ store, edits, playback }, parts, send) {
   );
   const key = h("span", { text: "bar: measured, line: target, in mm" });
   const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", key), parts.bars.element);
-  const jog = jogPart(store, edits);
-  const more = h("div", { class: "after-run" }, jog, robotFaults(store));
+  const byHand = [jogPart(store, edits), drivePart(store), motorTestPart(store)];
+  const more = h("div", { class: "after-run" }, ...byHand, robotFaults(store));
   const above = [leasePart(store), overrideNote(store), before, runningPart(store), parts.record, strokes];
   byId("robot").append(...above, more, robotLog(store));
   keepPlace(
     above,
     () => more.offsetTop,
-    () => jog.contains(document.activeElement) || jog.matches(":hover"),
+    () => byHand.some((part) => part.contains(document.activeElement) || part.matches(":hover")),
   );
   const acts = h("div", { class: "solve" }, parts.connect.button, parts.clear.button, parts.arm.button);
   byId("foot-run").append(

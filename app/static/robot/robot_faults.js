@@ -16,6 +16,8 @@ const FAULTS = {
   "weak-motor": "weak-motor: motor 8 is slow",
   "stuck-motor": "stuck-motor: motor 5 does not move",
   "dead-pot": "dead-pot: sensor of motor 2 stays constant",
+  "reversed-motor": "reversed-motor: motor 7 turns the wrong way",
+  "swapped-motors": "swapped-motors: the cables of motors 4 and 5 are exchanged",
   noise: "noise: sensor readings are noisy",
 };
 

@@ -130,6 +130,16 @@ const GROUPS = {
         + "Delete removes the point",
     ],
   ],
+  "Drive by keys": [
+    [
+      "1 … =, Q … ]",
+      "In the region Drive by keys of the Run step, after a click: "
+        + "move motors 1 to 12 up, or down with the row below. The place of a key counts, not its letter",
+    ],
+    ["A S D F, G", "Choose foot 1 to 4, or the body, for the arrows"],
+    ["Arrows, Page Up, Page Down", "Move the foot or the body forwards, back, left, right, up and down"],
+    ["Tab, Esc", "Leave the region. During a step, Esc stops the robot"],
+  ],
   "Goal and numbers": [
     [
       "Arrows",

@@ -20,6 +20,9 @@ function ownsSpace(target, withShift) {
   return Boolean(target.closest?.("button, select, summary, a[href], [role=gridcell]"));
 }
 
+/** True where no key of the page acts: in a dialog, and where keys drive the robot. */
+const isElsewhere = ({ target }) => dialogOpen() || Boolean(target.closest?.("[data-drive]"));
+
 /** True where letters, Delete and Ctrl with a letter mean something else than the timeline. */
 const ownsLetters = (target) =>
   Boolean(target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog], [data-keys]"));
@@ -108,7 +111,7 @@ export function mountKeys(page) {
 
   function press(event) {
     if (event.key === "Escape") return escape(event);
-    if (dialogOpen()) return undefined;
+    if (isElsewhere(event)) return undefined;
     if (event.key === "F6") {
       event.preventDefault();
       return goToPart(event.shiftKey ? -1 : 1);

@@ -24,6 +24,9 @@ export function whyNotHeld(robot) {
   return isTaken(lease) && !isMine(lease) ? lease.refusal : null;
 }
 
+/** Whether this tab is in control of the robot. @param {any} robot */
+export const isHolder = (robot) => isMine(robot?.lease);
+
 /** Who holds the robot, in a sentence; nothing where nobody does. @param {any} robot */
 export function holderSentence(robot) {
   const lease = robot?.lease;

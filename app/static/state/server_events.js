@@ -23,7 +23,7 @@ export const sendToStudio = (text) => send(text);
  * @type {Record<string, (store: Store, message: Message) => void>}
  */
 const RECEIVERS = {
-  hello: (store, { version, gaits, robot, storage, jobs }) =>
+  hello: (store, { version, gaits, robot, storage, jobs, motor_test: motorTest }) =>
     store.set({
       connected: true,
       greeted: true,
@@ -31,6 +31,7 @@ const RECEIVERS = {
       gaits,
       robot,
       storage,
+      motorTest,
       jobs: jobs.reduce(withJob, []),
     }),
   gaits: (store, { gaits }) => store.set({ gaits }),
@@ -51,6 +52,7 @@ const RECEIVERS = {
   trial: (store, { trial }) =>
     store.set({ trialChanges: { ...store.state.trialChanges, [trial.id]: trial } }),
   robot: (store, { robot }) => acceptRobot(store, robot),
+  motor_test: (store, { motor_test: motorTest }) => store.set({ motorTest }),
 };
 
 /**

@@ -50,6 +50,7 @@ const INITIAL = Object.freeze({
   simulation: null,
   tracks: Object.freeze([]),
   jog: null,
+  motorTest: null,
   cameras: null,
   setups: null,
   trialMade: null,

@@ -115,6 +115,20 @@ def test_a_jog_that_is_not_reached_ends_as_a_fault_that_names_it() -> None:
     assert "In move 1 of 3 of a jog of motor 3 of foot 2" in str(fault.last_error)
 
 
+def test_a_jog_that_is_ended_early_sends_no_further_move_and_leaves_the_robot_armed() -> None:
+    robot = armed()
+    before, sent = robot.strokes_mm, len(robot.sent)
+    robot.machine.jog(jog_plan(robot), "Ada", robot.now)
+    robot.wait(0.3)
+    robot.machine.end_early()
+    ended = robot.until_robot(RobotState.ARMED, RobotState.FAULT)
+    assert (ended.robot, ended.jog) == (RobotState.ARMED, None), ended.last_error
+    assert len(robot.sent) - sent == 1
+    assert robot.strokes_mm[5] - before[5] == pytest.approx(7.0 / 3, abs=1.0)
+    robot.machine.end_early()
+    assert robot.snapshot.robot is RobotState.ARMED
+
+
 def test_a_jog_whose_cable_comes_out_ends_as_a_fault() -> None:
     robot = armed()
     robot.machine.jog(jog_plan(robot), "Ada", robot.now)
@@ -186,6 +200,7 @@ WAYPOINT = encode_waypoint(np.full((4, 3), 0.005), 1.0)
 BY_KIND = {
     MessageKind.WAYPOINT: {WAYPOINT},
     MessageKind.JOG: {WAYPOINT},
+    MessageKind.TEST: {WAYPOINT, encode_stop(), encode_release()},
     MessageKind.RESET: {encode_reset()},
     MessageKind.CLEAR: {WAYPOINT, encode_release()},
 }

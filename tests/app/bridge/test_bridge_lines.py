@@ -12,7 +12,7 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState
 from app.bridge.transport import Transport
 from app.emulator.emulated_robot import EmulatedRobot
-from app.emulator.faults import Fault
+from app.emulator.faults import Fault, FaultRequest
 from app.emulator.firmware import Firmware
 from app.emulator.ports import Port, PtyPort, TcpPort
 from app.emulator.profiles import PROFILES, ProfileName
@@ -255,7 +255,7 @@ def test_an_unplugged_cable_ends_the_run_as_a_fault(
 ) -> None:
     make_ready(bridge, lockstep)
     bridge.send(random_plan(4, 6), "Ada")
-    until(bridge, has_reached(1), lambda: emulator.inject(Fault.UNPLUG))
+    until(bridge, has_reached(1), lambda: emulator.inject(FaultRequest(Fault.UNPLUG)))
     until(bridge, lambda s: s.link is LinkState.LOST)
     assert bridge.snapshot.robot is RobotState.FAULT
     assert "hung up" in bridge.snapshot.sentence
@@ -268,7 +268,7 @@ SURVIVABLE = (Fault.DROP, Fault.GARBLE, Fault.SPLIT, Fault.DELAY, Fault.WEAK_MOT
 def test_every_fault_that_is_asked_for_beforehand_ends_in_a_named_state(fault: Fault) -> None:
     lockstep = Lockstep(PtyPort())
     firmware = Firmware(PROFILES[ProfileName.NOMINAL])
-    robot = EmulatedRobot(firmware, lockstep, pace=lockstep.pace, faults=[fault], booted=True)
+    robot = EmulatedRobot(firmware, lockstep, pace=lockstep.pace, faults=[FaultRequest(fault)], booted=True)
     bridge = FollowedBridge(lockstep, clock=lambda: firmware.now, tick=0.005)
     make_ready(bridge, lockstep)
     bridge.send(random_plan(6, 8), "Ada")

@@ -12,7 +12,7 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.devices import SerialDevice, found_again
 from app.bridge.states import LinkState, RobotSnapshot
 from app.bridge.transport import serial_devices
-from app.emulator.faults import Fault
+from app.emulator.faults import Fault, FaultRequest
 from app.emulator.ports import PtyPort, TcpPort
 from app.robot.ports import RobotPorts
 from tests.support.patience import patient_robot
@@ -134,7 +134,7 @@ def test_a_board_that_comes_back_under_another_name_is_found_and_answers(tmp_pat
                 bridge.connect(device)
                 ports.connected(device)
                 assert until_link(bridge, LinkState.READY).device == str(name)
-                robot.inject(Fault.UNPLUG)
+                robot.inject(FaultRequest(Fault.UNPLUG))
                 until_link(bridge, LinkState.LOST)
                 name.unlink()
 

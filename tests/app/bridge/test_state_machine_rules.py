@@ -12,9 +12,10 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 
 from app.bridge.messages import NOT_STOPPED
 from app.bridge.states import IN_RUN, LinkState, RobotState
-from app.emulator.faults import Fault
+from app.emulator.faults import USUAL_MOTORS, Fault
 from app.emulator.profiles import ProfileName
 from core.errors import StateError
+from core.robot.model import load_robot
 from core.wire.messages import (
     HIGHEST_MM,
     LOWEST_MM,
@@ -30,6 +31,7 @@ from tests.support.virtual_robot import VirtualRobot, make_plan
 LONGEST_WAIT = 300.0
 """Every wait ends within this: five moves to the start pose and six waypoints, all at their deadlines, s."""
 
+WALKER = load_robot("deltawalker")
 STOPS = (encode_stop(), encode_flush(), encode_flush() + encode_stop())
 BY = "Ada"
 
@@ -68,7 +70,7 @@ class CommandQueue(RuleBasedStateMachine):
     def judge(self, data: bytes) -> bytes:
         """Looks at every message as it leaves the host; what is wrong is told by the invariant."""
         machine = self.robot.machine
-        if data in STOPS:
+        if data in STOPS or (data == encode_release() and self.may_move and machine._test is not None):
             return data
         if not self.may_move and not machine._clearing:
             self.wrong.append(f"{data!r} without Clear and Arm since the last stop")
@@ -88,7 +90,7 @@ class CommandQueue(RuleBasedStateMachine):
     @property
     def is_streaming(self) -> bool:
         run = self.robot.snapshot.run
-        return run is None or run.sent > 1 or not self.approved
+        return self.robot.machine._test is None and (run is None or run.sent > 1 or not self.approved)
 
     def is_in_range(self, data: bytes) -> bool:
         fields = [float(field) for field in payload_of(data).split(",")[3:]]
@@ -159,6 +161,14 @@ class CommandQueue(RuleBasedStateMachine):
         self.wish(lambda: self.robot.machine.clear(BY, self.robot.now))
 
     @rule()
+    def move_each_motor(self) -> None:
+        self.wish(lambda: self.robot.machine.test_motors(WALKER, BY, self.robot.now))
+
+    @rule()
+    def end_early(self) -> None:
+        self.robot.machine.end_early()
+
+    @rule()
     def reset(self) -> None:
         self.may_reset = True
         self.may_reset &= self.wish(lambda: self.robot.machine.reset(BY, self.robot.now))
@@ -176,9 +186,9 @@ class CommandQueue(RuleBasedStateMachine):
         self.robot.machine.closed(self.robot.now)
 
     @precondition(lambda self: self.robot.machine.robot is not RobotState.FAULT)
-    @rule(fault=st.sampled_from(Fault), motor=st.integers(0, 11))
-    def strike(self, fault: Fault, motor: int) -> None:
-        self.robot.troubles.strike(fault, motor)
+    @rule(fault=st.sampled_from(Fault), motors=st.permutations(range(12)))
+    def strike(self, fault: Fault, motors: list[int]) -> None:
+        self.robot.troubles.strike(fault, tuple(motors[: len(USUAL_MOTORS.get(fault, ()))]))
 
     @rule()
     def mend_and_cut_the_power(self) -> None:

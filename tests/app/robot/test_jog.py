@@ -171,6 +171,23 @@ def test_the_same_refusals_stand_in_the_preview(studio: StudioProcess, jog: Jog)
         assert [(error["rule"], error["sentence"]) for error in errors] == [(rule, shown["reason"])]
 
 
+def test_a_jog_that_is_ended_early_leaves_out_its_further_moves(jog: Jog, studio: StudioProcess) -> None:
+    idle = studio.ask("POST", "/api/robot/jog/end", None, GRACE)
+    assert (idle.status, idle.content["jog"]) == (200, None)
+    arm(studio)
+    answers: list[Answer] = []
+
+    def accepted() -> bool:
+        answers.append(jog({"part": "motor", "foot": 2, "motor": 1, "by_mm": 18}))
+        return answers[-1].status == 200
+
+    wait_for(accepted, "the robot stands still", LONG)
+    assert answers[-1].content["jog"]["count"] == 6
+    assert studio.ask("POST", "/api/robot/jog/end", None, GRACE).status == 200
+    wait_for(lambda: normalise(studio), "the jog is done", LONG)
+    assert studio.robot()["strokes_mm"][3] < 15.0
+
+
 def test_a_stop_ends_a_jog(studio: StudioProcess, jog: Jog) -> None:
     arm(studio)
     wait_for(lambda: jog({**RAISE, "by_mm": 15.0}).status == 200, "the robot stands still", LONG)

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from app.emulator.emulated_robot import EmulatedRobot
-from app.emulator.faults import Fault
+from app.emulator.faults import Fault, FaultRequest
 from tests.support.page.axe import require_no_finding
 from tests.support.page.drawers import open_drawer
 from tests.support.page.keyboard import tab_stops
@@ -115,7 +115,7 @@ def test_a_fault_in_mid_run(page: Page, studio: StudioProcess, robot: EmulatedRo
     expect(page.get_by_role("status", name="Robot")).to_contain_text("armed")
     press(page, "Send to robot")
     walks(studio)
-    robot.inject(Fault.UNPLUG)
+    robot.inject(FaultRequest(Fault.UNPLUG))
     expect(page.get_by_role("status", name="Robot")).to_contain_text("hung up")
     require_no_finding(page, "fault")
 

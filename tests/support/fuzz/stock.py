@@ -196,6 +196,7 @@ def bodies_of(
         "POST /api/robot/send": ({"gait": "walk", "waypoints_hash": None, "from": 0, "iterations": 1},),
         "POST /api/robot/connect": ({"device": "emulator"}, {}),
         "POST /api/robot/jog": (jog, {**jog, "look": {"part": "foot", "foot": 2}}),
+        "POST /api/robot/motor-test": ({"robot": "deltawalker"}, {}),
         "POST /api/robot/jog/ghost": ({"steps": [step], "from_mm": [5.5] * 12, "x": 0.1, "heading": 0.2},),
         "POST /api/tables/made": tuple({"document": one} for one in (gaits[0], manual)),
         "POST /api/tables/repairs": ({"table": manual["segment_table"], "kept": [[0, 1], [1, 2]]},),

@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import Any
 
 from core.errors import InputError, StateError
-from core.names import is_visible
+from core.names import is_visible, require_kept
 from core.overrides import FINAL, MOST_REASON, OVERRIDABLE, OverrideRequest
 
 TOLERANCE = 1e-6
@@ -258,6 +258,7 @@ def approve(
     """
     if not is_visible(by):
         raise StateError("An approval needs the name of the person who gives it.", "by")
+    require_kept(by, "The name", "by")
     overridden = None if override is None else _override(verdict, override)
     left = [one for one in verdict.errors if overridden is None or one.rule not in overridden.rules]
     if left:
@@ -303,6 +304,7 @@ def _override(verdict: Verdict, request: OverrideRequest) -> Override:
             "spite of these errors.",
             "override",
         )
+    require_kept(reason, "The reason", "override")
     if not request.rules:
         raise InputError("An override must name the rules whose errors it is about.", "override")
     standing = {error.rule for error in verdict.errors}

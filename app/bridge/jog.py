@@ -73,6 +73,12 @@ class Jog:
         return self._reached == len(self._moves)
 
     @property
+    def end_words(self) -> str:
+        """What is said at its end."""
+        planned, made = len(self._plan.way), len(self._moves)
+        return "Jog done." if made == planned else f"Jog ended early, after {made} of {planned} moves."
+
+    @property
     def place(self) -> str:
         """Where it is, for a person."""
         return f"in move {self._sent} of {len(self._moves)} of a jog of {self._plan.text}"

@@ -97,6 +97,11 @@ class MotorTest:
         return self._state is not MotorTestState.RUNNING
 
     @property
+    def was_ended_early(self) -> bool:
+        """Whether a person ended it before the last motor."""
+        return self._state is MotorTestState.CANCELLED
+
+    @property
     def place(self) -> str:
         """Where it is, for a person."""
         return "at the end of the motor test" if self._motor is None else f"in the test of {self._named}"

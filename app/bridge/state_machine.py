@@ -297,7 +297,7 @@ class RobotStateMachine(RobotLink):
         self.revision += 1
         if jog.finished:
             self._jog = None
-            self.become(now, "Jog done.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+            self.become(now, jog.end_words, SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
         else:
             self._send_jog(now)
 
@@ -313,7 +313,8 @@ class RobotStateMachine(RobotLink):
             self._deliver(order.message, target, order.stages, now, kind=MessageKind.TEST)
         elif test.finished:
             self._test = None
-            self.become(now, "Motor test done.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+            words = "Motor test ended early." if test.was_ended_early else "Motor test done."
+            self.become(now, words, SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
         self.revision += test.progress() != before
 
     def _go_on_clearing(self, delivery: Delivery, now: float) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from app.cli.common.argument_types import add_robot, number
 from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, NOT_FIT, note, show, verdict_lines, write
-from app.cli.common.within_stroke import add_within_stroke, kept_within
+from app.cli.common.within_stroke import OPTION, add_within_stroke, kept_within
 from app.common.clipped import clipped_content
 from app.export.trajectory_files import read_trajectory, write_waypoints
 from app.export.way_files import is_way_file, read_way_file
@@ -22,7 +22,7 @@ from core.checks.checked_plan import Beyond, CheckedPlan, checked_plan
 from core.checks.rules import check_plan, check_waypoints
 from core.findings import Verdict
 from core.motion.trajectory import Trajectory
-from core.motion.within_stroke import clipped_strokes
+from core.motion.within_stroke import beyond_strokes, clipped_strokes
 from core.robot.kinematics import UnreachableError
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds, stop_time
@@ -139,12 +139,11 @@ def _judged(options: Namespace) -> _Judged:
         trajectory = read.trajectory
         model, plan = load_robot(options.robot or read.robot or ROBOT), _plan_alone
     try:
-        trajectory, clipped = kept_within(options, model, trajectory)
+        trajectory, clipped = kept_within(options, model, trajectory, recorded)
     except UnreachableError as refusal:
-        whole = beyond_range_plan(model, trajectory, *sending)
+        whole = beyond_range_plan(model, trajectory)
         beyond = Beyond(unreached=whole.unreached)
         return _Judged(check_plan(plan(model, trajectory, whole.way, beyond=beyond)), refusal=refusal)
-    clipped = clipped if recorded is None else recorded
     way = plan_waypoints(model, trajectory, *sending)
     return _Judged(checked_in_physics(plan(model, trajectory, way, beyond=Beyond(clipped))), clipped)
 
@@ -171,7 +170,10 @@ def _judged_way(options: Namespace) -> _Judged:
         "swings and slip are not."
     )
     waypoints, clipped = way.waypoints, None
-    if options.within_stroke is not None:
+    if options.within_stroke is None:
+        if beyond_strokes(way.model, waypoints.strokes).any():
+            note(f"{OPTION} keeps strokes beyond the motors' range at its end.")
+    else:
         kept = clipped_strokes(way.model, waypoints.strokes)
         waypoints, clipped = replace(waypoints, strokes=kept.strokes), kept.beyond
     return _Judged(check_waypoints(way.model, waypoints, Beyond(clipped)), clipped)

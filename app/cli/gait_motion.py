@@ -18,7 +18,7 @@ from core.motion.trajectory import Trajectory
 from core.pose_gaits.gait_poses import found_gait, pose_problem, with_poses
 from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_gait import PoseGait
-from core.recorded.recorded_motion import gait_motion, gait_trajectory
+from core.recorded.recorded_motion import gait_motion
 from core.robot.model import load_robot
 from solver_jobs import SolveStatus, solve_live, solve_poses
 
@@ -36,10 +36,7 @@ def checked_gait(path: Path, robot: str | None) -> tuple[Gait, Trajectory, Float
     if gait.poses is not None:
         # What was left to the search, such as the step, is then in the document that the motion is held to.
         gait = with_poses(gait, poses_of(gait))
-    if gait.recorded is not None and not gait.sequence:
-        motion = gait_motion(gait, gait.recorded, load_robot(gait.robot))
-        return gait, motion.trajectory, motion.clipped
-    return gait, trajectory_of(gait), None
+    return gait, *_motion_of(gait)
 
 
 def trajectory_of(gait: Gait) -> Trajectory:
@@ -50,22 +47,29 @@ def trajectory_of(gait: Gait) -> Trajectory:
         InfeasibleError: there is no motion.
         CheckError: the optimiser found none that the checker confirms.
     """
+    return _motion_of(gait)[0]
+
+
+def _motion_of(gait: Gait) -> tuple[Trajectory, Floats | None]:
+    """The motion, and how far recorded strokes were clipped, m (see `trajectory_of`)."""
+    model = load_robot(gait.robot)
     if gait.sequence:
-        motions = [_part_trajectory(index, part) for index, part in enumerate(gait.sequence)]
-        whole = chain_runs(gait, load_robot(gait.robot), motions, partial(steps_between, solve_live))
+        parts = [_part_motion(index, part) for index, part in enumerate(gait.sequence)]
+        whole = chain_runs(gait, model, [motion for motion, _ in parts], partial(steps_between, solve_live))
         require_own(gait, whole)
-        return whole.trajectory
+        return whole.trajectory, whole.clipped([clipped for _, clipped in parts])
     if gait.poses is not None:
-        return poses_of(gait).trajectory
+        return poses_of(gait).trajectory, None
     if gait.recorded is not None:
-        return gait_trajectory(gait, gait.recorded, load_robot(gait.robot))
+        recorded = gait_motion(gait, gait.recorded, model)
+        return recorded.trajectory, recorded.clipped
     if gait.segment_table is not None:
-        return manual_motion(gait, load_robot(gait.robot)).trajectory
+        return manual_motion(gait, model).trajectory, None
     verified = optimise(gait)
     if verified.has_motion:
         if verified.status is not SolveStatus.SOLVED:
             note(" ".join(verified.explanation))
-        return verified.trajectory
+        return verified.trajectory, None
     sentence = " ".join(verified.explanation) or "The optimiser found no motion."
     if verified.status is SolveStatus.INFEASIBLE:
         raise InfeasibleError(sentence, gait.name)
@@ -94,7 +98,7 @@ def poses_of(gait: Gait) -> PoseGait:
     raise kind(sentence, gait.name)
 
 
-def _part_trajectory(index: int, part: SequencePart) -> Trajectory:
+def _part_motion(index: int, part: SequencePart) -> tuple[Trajectory, Floats | None]:
     """The motion of a part with all its iterations; a refusal says which part it is about.
 
     Raises:
@@ -102,7 +106,7 @@ def _part_trajectory(index: int, part: SequencePart) -> Trajectory:
         CheckError: no motion was confirmed, or the part makes none.
     """
     try:
-        return trajectory_of(run_of(part).gait)
+        return _motion_of(run_of(part).gait)
     except FootfallError as refusal:
         sentence = f"{part_name(index, part)}, has no motion: {refusal.sentence}"
         kind = InfeasibleError if isinstance(refusal, InfeasibleError) else CheckError

@@ -362,20 +362,21 @@ class GaitService:
         return self.open_gaits.put(replace(open_gait, approval=approval, revoked=None), version, record)
 
     def on_simulated(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
-        """Revokes verdict and approval of each open gait that was simulated since; returns these gaits.
+        """Takes verdicts anew of each open gait that was simulated since; returns the gaits that changed.
 
-        An approval that overrides errors stays where the simulation adds no error.
+        An approval stays where its verdict is the same, or adds no error to those that it overrides.
         """
         checked = self.open_gaits.all()
         touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
-        return tuple(self.open_gaits.put(self._simulated_since(gait)) for gait in touched)
+        since = [(gait, self._simulated_since(gait)) for gait in touched]
+        return tuple(self.open_gaits.put(now) for before, now in since if now is not before)
 
     def _simulated_since(self, open_gait: OpenGait) -> OpenGait:
-        approval = open_gait.approval
-        if approval is None or approval.override is None:
-            return open_gait.unapproved("It was simulated since")
         plan = self.plan(open_gait.id)
+        verdict = self._verdict_of(plan, open_gait.gait)
+        if open_gait.verdict is not None and verdict.content_hash == open_gait.verdict.content_hash:
+            return open_gait
+        if open_gait.approval is None or open_gait.approval.override is None:
+            return open_gait.unapproved("It was simulated since")
         confirmed = open_gait.confirmed(plan, self._verdict_of)
-        if confirmed.approval is None:
-            return confirmed
-        return replace(confirmed, verdict=self._verdict_of(plan, open_gait.gait))
+        return confirmed if confirmed.approval is None else replace(confirmed, verdict=verdict)

@@ -15,7 +15,7 @@ from core.gait.gait import Gait, motion_problem, resting_poses
 from core.gait.held_feet import HeldFeet, held_sentence
 from core.gait.manual_motion import manual_motion, stance_slip
 from core.gait.poses import FoundPoses
-from core.gait.recording import Recording, RecordingForm
+from core.gait.recording import AS_RECORDED, Recording, RecordingForm
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.gait_poses import asked_of, drawn_poses, found_gait, gait_of_poses, pose_problem
 from core.pose_gaits.pace import motion_words
@@ -24,6 +24,7 @@ from core.pose_gaits.pose_gait import PoseGait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem, missing_support
+from core.recorded.frame_offsets import frame_offsets
 from core.recorded.recorded_motion import fit_words, gait_motion
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds
@@ -146,7 +147,9 @@ def _recorded_plan(gait: Gait, recording: Recording, model: RobotModel) -> Plan:
     if recording.form is RecordingForm.WAYPOINTS:
         slides = f"standing feet slide up to {slip.max() * 1000:.1f} mm"
         note = f"The waypoints of {'; '.join(filter(None, (recording.file, how, slides)))}."
-    return Plan(PlanSource.RECORDED, note, model, trajectory, None, None, slip, clipped=motion.clipped)
+    offsets = frame_offsets(model, trajectory) if recording.fit == AS_RECORDED else None
+    plan = Plan(PlanSource.RECORDED, note, model, trajectory, None, None, slip, clipped=motion.clipped)
+    return plan if offsets is None else replace(plan, doubt=offsets.sentence)
 
 
 def _live_plan(problem: MotionProblem, answer: VerifiedResult) -> Plan:

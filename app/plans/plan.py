@@ -25,14 +25,13 @@ from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.motion_in_move import motion_along
 from core.pose_gaits.pose_gait import PoseGait
-from core.recorded.frame_offsets import frame_offsets
-from core.robot.kinematics import REMEDY, UnreachableError, free_strokes
+from core.robot.kinematics import UnreachableError, free_strokes
 from core.robot.model import RobotModel
 from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus
 
-KEEPS = "The step Design has ways to keep the recording."
+KEEPS = "Clip its strokes, raise or lower the body, or make the motion smaller to keep the recording."
 """What helps where a recorded motion leaves the motors' range."""
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
 """One waypoint a sample."""
@@ -78,6 +77,8 @@ class Plan:
         infeasible: sentences on why a search found no poses; empty where none has failed.
         clipped: (n, legs, 3) how far each stroke of a recorded motion was beyond the motors' range and was
             clipped, m; None where strokes are left as they are.
+        doubt: why the heights of a recorded motion seem to be in another frame; empty where they do not, or
+            where it was said already how the motion is changed.
     """
 
     source: PlanSource
@@ -95,6 +96,7 @@ class Plan:
     poses: PoseGait | None = None
     infeasible: tuple[str, ...] = ()
     clipped: Floats | None = None
+    doubt: str = ""
 
     @property
     def is_draft(self) -> bool:
@@ -106,15 +108,12 @@ class Plan:
         """Whether there is a motion that the motors cannot make."""
         return self.trajectory is not None and isinstance(self.refusal, UnreachableError)
 
-    @cached_property
+    @property
     def misfit(self) -> str | None:
         """Why a recorded motion does not fit the robot, or seems to be in another frame; else None."""
         if self.source is not PlanSource.RECORDED or self.trajectory is None:
             return None
-        offsets = frame_offsets(self.model, self.trajectory)
-        if offsets is not None:
-            return offsets.sentence
-        return None if self.refusal is None else self.refusal.sentence
+        return self.doubt or (None if self.refusal is None else self.refusal.sentence)
 
     @cached_property
     def moved(self) -> Trajectory | None:
@@ -248,7 +247,7 @@ def _refusal(plan: Plan, unreachable: UnreachableError) -> FootfallError:
     if plan.source is PlanSource.DRAFT:
         return InputError(plan.note, "timeline")
     if plan.source is PlanSource.RECORDED:
-        return unreachable.with_sentence(unreachable.sentence.replace(REMEDY, KEEPS))
+        return unreachable.with_remedy(KEEPS)
     return unreachable
 
 
@@ -270,7 +269,7 @@ def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Ve
     """
     way, beyond = plan.way, Beyond(plan.clipped)
     if plan.trajectory is not None and plan.is_out_of_range:
-        whole = beyond_range_plan(plan.model, plan.trajectory, *sending_of(gait))
+        whole = beyond_range_plan(plan.model, plan.trajectory)
         way, beyond = whole.way, Beyond(plan.clipped, whole.unreached)
     if plan.trajectory is None or way is None:
         sentence = "There is no plan to check." if plan.refusal is None else plan.refusal.sentence

@@ -108,6 +108,7 @@ def sequence_plan(gait: Gait, plan_single: Callable[[Gait], Plan], solve: Solve)
             slip=slip,
             seconds=sum(seconds) if seconds else None,
             parts=placed_parts(gait, plans, whole),
+            clipped=whole.clipped([plan.clipped for plan in plans]),
         ),
         gait.options,
     )

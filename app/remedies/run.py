@@ -19,12 +19,14 @@ from app.simulation.repository import SimulationRepository, SimulationResult, si
 from core.errors import FootfallError, SimulationCancelledError
 from core.findings import Severity
 from core.gait.gait import Gait
+from core.gait.recording import Recording
 from core.patterns.problem import PatternProblem, PatternResult
-from core.physics.findings import ROCKING_RULES, physics_outcomes
+from core.physics.findings import SIMULATED_ROCKING, physics_outcomes
 from core.physics.masses import default_physics
 from core.physics.metrics import report
 from core.physics.problem import SimulationProblem
-from core.recorded.ways_within import WayWithin, ways_within
+from core.physics.report import SimulationReport
+from core.recorded.fit_choices import FitChoice, fit_choices
 from core.robot.model import load_robot
 from solver_jobs import (
     MOST_REMEDIES,
@@ -184,9 +186,7 @@ class RemedyRun:
     def _search(self) -> None:
         """The live tier's search, or the ways to keep a recorded motion."""
         if self._gait.recorded is not None:
-            for way in ways_within(self._gait, self._gait.recorded):
-                self._later(partial(self._kept, way))
-            self._later(partial(self._searched, RemedySearch((), complete=True)))
+            self._later(partial(self._searched, RemedySearch((), complete=self._keep(self._gait.recorded))))
             return
         result = self._parts.tier.remedies(
             self._gait,
@@ -195,6 +195,18 @@ class RemedyRun:
             go_on=lambda: not self._cancelled.is_set(),
         )
         self._later(partial(self._searched, result))
+
+    def _keep(self, recording: Recording) -> bool:
+        """Looks for ways to keep a recorded motion; whether it came to its end."""
+        try:
+            for way in fit_choices(self._gait, recording):
+                if self._cancelled.is_set():
+                    return False
+                self._later(partial(self._kept, way))
+        except FootfallError as error:
+            _log.info("The search for ways to keep a recording was cut short: %s", error)
+            return False
+        return True
 
     def _later(self, act: Callable[[], None]) -> None:
         self._events.put(act)
@@ -205,7 +217,7 @@ class RemedyRun:
         if plan.live is not None and plan.live.status is SolveStatus.SOLVED and plan.way is not None:
             self._offer(remedy, plan, rank(self._gait, self._model, remedy))
 
-    def _kept(self, way: WayWithin) -> None:
+    def _kept(self, way: FitChoice) -> None:
         """Plans a way to keep a recorded motion; the least change comes first."""
         plan = self._parts.live.plan(way.gait)
         if plan.source is PlanSource.RECORDED:
@@ -265,6 +277,11 @@ class RemedyRun:
         offer = next((one for one in self._shown() if one.is_untried), None)
         if offer is None:
             return
+        known = self._parts.simulations.simulated(offer.plan)
+        if known is not None and known.problem.physics == default_physics(self._model):
+            offer.tried = _tried(known.report, known.problem)
+            self._try_next()
+            return
         problem = simulation_problem(offer.plan, default_physics(self._model))
         handle = self._parts.simulator.submit(problem)
         self._simulation = handle
@@ -283,11 +300,7 @@ class RemedyRun:
         except FootfallError as error:
             offer.tried = Tried(walks=None, sentence=error.sentence)
         else:
-            findings = [one for outcome in physics_outcomes(figures, problem) for one in outcome.findings]
-            errors = [one.sentence for one in findings if one.severity is Severity.ERROR]
-            rocks = any(one.rule in ROCKING_RULES for one in findings)
-            leans = f"It leans by up to {np.degrees(figures.max_tilt):.1f}° and does not fall."
-            offer.tried = Tried(not errors, errors[0] if errors else leans if rocks else "")
+            offer.tried = _tried(figures, problem)
 
     def _content(self) -> Json:
         offers = self._shown()
@@ -307,3 +320,12 @@ class RemedyRun:
             "Neither clipping nor raising, lowering or scaling brings this motion within the motors' range. "
             "Record it anew, or press Optimise, which computes another motion."
         )
+
+
+def _tried(figures: SimulationReport, problem: SimulationProblem) -> Tried:
+    """What physics says of a change: its first error, or how far it leans where it rocks."""
+    findings = [one for outcome in physics_outcomes(figures, problem) for one in outcome.findings]
+    errors = [one.sentence for one in findings if one.severity is Severity.ERROR]
+    rocks = any(one.rule in SIMULATED_ROCKING for one in findings)
+    leans = f"It leans by up to {np.degrees(figures.max_tilt):.1f}° and does not fall."
+    return Tried(not errors, errors[0] if errors else leans if rocks else "")

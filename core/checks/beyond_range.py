@@ -27,19 +27,15 @@ class BeyondRange:
     unreached: Bools
 
 
-def beyond_range_plan(
-    model: RobotModel, trajectory: Trajectory, merge: float = 0.0, stop_bound: float | None = None
-) -> BeyondRange:
-    """The same as `plan_waypoints`, whatever the motors' range.
+def beyond_range_plan(model: RobotModel, trajectory: Trajectory) -> BeyondRange:
+    """One waypoint a sample, whatever the motors' range; nothing is merged or cut.
 
     Args:
         model: the robot.
         trajectory: the motion.
-        merge: tolerance, m.
-        stop_bound: s, or None.
 
     Raises:
-        InputError: the robot has another number of feet, or tolerance or bound is no usable number.
+        InputError: the robot has another number of feet.
     """
     trajectory.require_feet_of(model)
     pose = trajectory.pose(model)
@@ -49,4 +45,4 @@ def beyond_range_plan(
     for sample, foot in zip(*np.nonzero(unreached), strict=True):
         strokes[sample, foot] = strokes_from_foot(model.leg, nearest_reachable(model, feet[sample, foot]))
     knots = knots_of_strokes(model, trajectory, strokes)
-    return BeyondRange(plan_of_knots(model, trajectory, knots, merge, stop_bound), unreached)
+    return BeyondRange(plan_of_knots(model, trajectory, knots), unreached)

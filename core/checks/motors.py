@@ -9,7 +9,8 @@ from core.arrays import SAME, Bools, Floats, first_highest, first_place, stretch
 from core.checks.checked_plan import WITHIN, Beyond, CheckedPlan, knot_place
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
 from core.motion.speeds import motor_accelerations, motor_speeds
-from core.motion.within_stroke import clipped_words
+from core.motion.within_stroke import NOT_CLIPPED, clipped_words
+from core.robot.kinematics import REMEDY
 from core.robot.model import RobotModel
 from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
 from core.wire.robot_time import ARRIVAL_THRESHOLD, ARRIVED, deafness, largest_moves, ramp_time
@@ -35,8 +36,10 @@ def check_strokes(
     lower, upper = model.stroke.lower, model.stroke.upper
     room = np.minimum(waypoints.strokes - lower, upper - waypoints.strokes)
     findings = [*_clipped(beyond.clipped, times), *_unreached(beyond.unreached, times)]
+    # A motion that was refused for the least excess does not pass here.
+    slack = TOLERANCE if beyond.unreached is None else NOT_CLIPPED
     for foot in range(room.shape[1]):
-        for first, last in stretches(np.asarray(room[:, foot].min(axis=-1) < -TOLERANCE)):
+        for first, last in stretches(np.asarray(room[:, foot].min(axis=-1) < -slack)):
             findings.append(_beyond_range(model, waypoints, times, foot, (first, last)))
     return Outcome(RuleMargin("stroke", float(room.min()), "m"), tuple(findings))
 
@@ -58,9 +61,8 @@ def _beyond_range(
         f"Motor {actuator + 1} of foot {foot + 1} would go to {value * 1000:.2f} mm at sample "
         f"{sample + 1}{stretch}; its range is {lower * 1000:.1f} to {upper * 1000:.1f} mm."
     )
-    remedy = "Shorten the step or change the body's height."
     limit = lower if value < lower else upper
-    return found("stroke", Severity.ERROR, words, remedy, value, limit, **place)
+    return found("stroke", Severity.ERROR, words, REMEDY, value, limit, **place)
 
 
 def _clipped(clipped: Floats | None, times: Floats | None) -> list[Finding]:
@@ -77,14 +79,18 @@ def _clipped(clipped: Floats | None, times: Floats | None) -> list[Finding]:
 
 def _unreached(unreached: Bools | None, times: Floats | None) -> list[Finding]:
     findings = []
-    for sample, foot in [] if unreached is None else np.argwhere(unreached).tolist():
-        place: dict[str, Any] = {"sample": sample, "foot": foot}
-        if times is not None:
-            place["time"] = float(times[sample])
-        words = f"No rod is long enough for foot {foot + 1} at sample {sample + 1}."
-        remedy = "Shorten the step or change the body's height."
-        findings.append(found("stroke", Severity.ERROR, words, remedy, None, 0.0, **place))
+    for foot in range(0 if unreached is None else unreached.shape[1]):
+        for first, last in [] if unreached is None else stretches(unreached[:, foot]):
+            place: dict[str, Any] = {"sample": first, "foot": foot}
+            if times is not None:
+                place["time"] = float(times[first])
+            words = f"No rod is long enough for foot {foot + 1} {_samples(first, last)}."
+            findings.append(found("stroke", Severity.ERROR, words, REMEDY, None, 0.0, **place))
     return findings
+
+
+def _samples(first: int, last: int) -> str:
+    return f"at sample {first + 1}" if first == last else f"at samples {first + 1} to {last + 1}"
 
 
 def check_deafness(waypoints: Waypoints, kept: Sequence[int] | None = None) -> Outcome:

@@ -6,13 +6,14 @@ from dataclasses import replace
 from core.checks.simulation import Simulated
 from core.findings import Finding, Severity
 from core.physics.findings import only_rocks, rocking_words
+from core.physics.masses import default_physics
 from core.robot.model import RobotModel
 
-ROCKING_RULES = ("balance", "path_balance")
+PLANNED_ROCKING = ("balance", "path_balance")
 """Rules whose errors mean that the robot rocks onto a foot, if it does not fall."""
 SIMULATE = (
-    "Or simulate: where the robot only rocks onto a foot and does not fall, this is a warning. Or override "
-    "the rule with a reason."
+    "A simulation shows whether the robot only rocks onto a foot and does not fall. A person may override "
+    "this rule with a reason."
 )
 
 
@@ -27,7 +28,7 @@ def rocking_judged(
     Args:
         findings: of a plan, or of its waypoints alone.
         model: the robot.
-        simulated: a simulation of exactly these waypoints.
+        simulated: a simulation of exactly these waypoints; it judges with the robot's usual physics only.
     """
     if model.is_coupled:
         return list(findings)
@@ -36,7 +37,7 @@ def rocking_judged(
 
 def _is_rocking(finding: Finding) -> bool:
     is_error = finding.severity is Severity.ERROR and finding.value is not None
-    return is_error and finding.rule in ROCKING_RULES
+    return is_error and finding.rule in PLANNED_ROCKING
 
 
 def _judged(finding: Finding, simulated: Simulated | None) -> Finding:
@@ -44,7 +45,8 @@ def _judged(finding: Finding, simulated: Simulated | None) -> Finding:
         remedy = f"{finding.remedy} {SIMULATE}"
         return replace(finding, sentence=f"{finding.sentence} {SIMULATE}", remedy=remedy)
     report, problem = simulated.report, simulated.problem
-    if not only_rocks(report, problem):
+    is_usual = problem.physics == default_physics(problem.model)
+    if not is_usual or not only_rocks(report, problem):
         return finding
     swinging = ~problem.plan.contact[finding.sample or 0]
     words = finding.sentence.removesuffix(finding.remedy) + rocking_words(report, swinging)

@@ -62,6 +62,24 @@ class Chain:
     trajectory: Trajectory
     spans: tuple[Span, ...]
 
+    def clipped(self, parts: Sequence[Floats | None]) -> Floats | None:
+        """How far strokes of its parts were clipped, at its own samples.
+
+        Args:
+            parts: (n, legs, 3) of each part, m; None where none were.
+
+        Returns:
+            (n, legs, 3) m; None where none were.
+        """
+        if all(part is None for part in parts):
+            return None
+        whole = np.zeros((self.trajectory.knot_count, self.trajectory.leg_count, 3))
+        for span in self.spans:
+            own = None if span.is_transition else parts[span.part]
+            if own is not None:
+                whole[span.first : span.last + 1] = own
+        return whole
+
     @property
     def travel(self) -> Floats:
         """(2,) how far the body goes, m."""

@@ -92,17 +92,18 @@ def clipped_strokes(model: RobotModel, strokes: Floats) -> ClippedStrokes:
     Raises:
         InputError: a stroke is more than `MOST_CLIPPED` beyond its range, or no rod is long enough.
     """
-    beyond = _beyond(model, strokes)
+    beyond = beyond_strokes(model, strokes)
     _require_small(beyond)
     return ClippedStrokes(np.clip(strokes, model.stroke.lower, model.stroke.upper), beyond)
 
 
 def beyond_range(model: RobotModel, trajectory: Trajectory) -> Floats:
     """(n, legs, 3) how far each stroke is beyond the motors' range, m; inf where no rod is long enough."""
-    return _beyond(model, free_strokes(model, trajectory.feet_world, trajectory.pose(model)))
+    return beyond_strokes(model, free_strokes(model, trajectory.feet_world, trajectory.pose(model)))
 
 
-def _beyond(model: RobotModel, wanted: Floats) -> Floats:
+def beyond_strokes(model: RobotModel, wanted: Floats) -> Floats:
+    """(n, legs, 3) how far wanted strokes are beyond the range, m; inf where no rod is long enough (nan)."""
     beyond = np.maximum(model.stroke.lower - wanted, wanted - model.stroke.upper)
     return np.where(np.isnan(beyond), np.inf, np.where(beyond > NOT_CLIPPED, beyond, 0.0))
 

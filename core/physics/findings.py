@@ -18,7 +18,7 @@ TILT_LIMIT = float(np.radians(2.0))
 SWING_LIMIT = 0.5
 """A foot that carries load for a larger part of a swing bears the robot that rocks onto it, or stays down;
 feet that are in the air have at most 0.13 by measurement, those that bear a robot 0.87 and more."""
-ROCKING_RULES = ("simulated_tilt", "simulated_swing")
+SIMULATED_ROCKING = ("simulated_tilt", "simulated_swing")
 """Rules that find a robot rocking onto a foot."""
 KNOTS_ABOUT = 1
 """Knots before and after a moment at which a plan is looked at too."""

@@ -26,7 +26,7 @@ bodies 18 mm too low or too high it is more than 3 mm.
 """
 
 
-MOST_ASIDE = 0.008
+MOST_ASIDE = 0.004
 """A motion that begins further above or below the standard stance is not explained by a frame, m."""
 
 

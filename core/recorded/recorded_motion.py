@@ -58,7 +58,7 @@ def recorded_motion(recording: Recording, model: RobotModel | None = None) -> Re
         return RecordedMotion(read)
     fit, motion = recording.fit, read.trajectory
     raised = raised_motion(motion, fit.body, fit.feet) if fit.body or fit.feet else motion
-    fitted = _scaled(raised, fit.scale)
+    fitted = scaled_motion(raised, fit.scale)
     if fit.within_stroke is None:
         return RecordedMotion(replace(read, trajectory=fitted))
     clipped = clipped_motion(model or load_robot(robot_with(motion.leg_count)), fitted)
@@ -77,8 +77,13 @@ def fit_words(fit: RecordingFit, clipped: Floats | None) -> str:
     return ", ".join(filter(None, (*raised, scaled, cut)))
 
 
-def _scaled(motion: Trajectory, scale: float) -> Trajectory:
-    """The motion with the ways of body, feet and heading from the first sample on scaled."""
+def scaled_motion(motion: Trajectory, scale: float) -> Trajectory:
+    """The motion with the ways of body, feet and heading from the first sample on scaled.
+
+    Args:
+        motion: the motion.
+        scale: 1 for the same motion.
+    """
     if scale == 1.0:
         return motion
 

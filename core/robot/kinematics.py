@@ -39,9 +39,10 @@ class UnreachableError(InfeasibleError):
         self.nearest_module = nearest_module
         self.distance = distance
 
-    def with_sentence(self, sentence: str) -> Self:
-        """The same refusal in other words."""
-        return type(self)(sentence, self.foot, self.sample, self.nearest_module, self.distance)
+    def with_remedy(self, remedy: str) -> Self:
+        """The same refusal with another way out."""
+        words = self.sentence.removesuffix(REMEDY).rstrip()
+        return type(self)(f"{words} {remedy}", self.foot, self.sample, self.nearest_module, self.distance)
 
 
 @dataclass(frozen=True, eq=False)

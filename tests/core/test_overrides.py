@@ -112,3 +112,11 @@ def test_a_new_error_is_one_at_another_place_too_and_a_vanished_one_or_a_warning
     assert given.new_error(verdict("balance", "simulated_fall")) == error("simulated_fall")
     elsewhere = error("balance", sample=9)
     assert given.new_error(replace(of, findings=(*of.findings, elsewhere))) == elsewhere
+
+
+@pytest.mark.parametrize("sign", ["\udcff", "\x00", "\x1b"])
+def test_words_that_cannot_be_kept_are_refused(sign: str) -> None:
+    with pytest.raises(InputError, match=f"The reason has the character U\\+{ord(sign):04X}"):
+        override(verdict("balance"), "balance", reason=f"it{sign}walked")
+    with pytest.raises(InputError, match="The name has the character"):
+        approve(verdict(), f"A{sign}da", NOON, accept_warnings=True)

@@ -9,7 +9,7 @@ from core.errors import FootfallError
 from core.gait.recording import WithinStroke
 from core.motion.trajectory import Trajectory
 from core.motion.within_stroke import clipped_motion, clipped_words
-from core.robot.kinematics import UnreachableError
+from core.robot.kinematics import REMEDY, UnreachableError
 from core.robot.model import RobotModel
 
 OPTION = "--within-stroke clip"
@@ -24,9 +24,15 @@ def add_within_stroke(parser: ArgumentParser) -> None:
 
 
 def kept_within(
-    options: Namespace, model: RobotModel, trajectory: Trajectory
+    options: Namespace, model: RobotModel, trajectory: Trajectory, recorded: Floats | None = None
 ) -> tuple[Trajectory, Floats | None]:
-    """The motion as the option asks, and how far each stroke was clipped, m; None without the option.
+    """The motion as the option asks, and how far each stroke was clipped, m; None where none could be.
+
+    Args:
+        options: of the command.
+        model: the robot.
+        trajectory: the motion.
+        recorded: how far strokes were clipped already, as a gait document asks, m.
 
     Raises:
         UnreachableError: the motion leaves the range and the option is not given; the sentence names it.
@@ -34,11 +40,13 @@ def kept_within(
     """
     if options.within_stroke is None:
         require_within(model, trajectory)
-        return trajectory, None
-    kept = clipped_motion(model, trajectory)
-    if kept.clipped.any():
-        note(f"Strokes beyond the motors' range were clipped, {clipped_words(kept.clipped)}.")
-    return kept.trajectory, kept.clipped
+        clipped = recorded
+    else:
+        kept = clipped_motion(model, trajectory)
+        trajectory, clipped = kept.trajectory, kept.clipped if recorded is None else recorded
+    if clipped is not None and clipped.any():
+        note(f"Strokes beyond the motors' range were clipped, {clipped_words(clipped)}.")
+    return trajectory, clipped
 
 
 def require_within(model: RobotModel, trajectory: Trajectory) -> None:
@@ -56,4 +64,4 @@ def require_within(model: RobotModel, trajectory: Trajectory) -> None:
             help_words = f"{OPTION} does not help: {too_far.sentence}"
         else:
             help_words = f"Or keep its strokes within the range with {OPTION}: {clipped_words(clipped)}."
-        raise refusal.with_sentence(f"{refusal.sentence} {help_words}") from refusal
+        raise refusal.with_remedy(f"{REMEDY} {help_words}") from refusal

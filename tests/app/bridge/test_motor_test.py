@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.bridge.motor_test import MotorTest
 from app.bridge.states import LinkState, MotorTestState, RobotSnapshot, RobotState
 from app.emulator.faults import Fault, FaultRequest
 from app.emulator.profiles import ProfileName
@@ -210,4 +209,12 @@ def test_only_an_armed_robot_is_tested_and_nothing_else_moves_it_meanwhile() -> 
 
 
 def test_a_new_test_begins_without_the_findings_of_the_last_one() -> None:
-    assert MotorTest(WALKER, "Ada").progress().findings == ()
+    robot = VirtualRobot()
+    robot.connect()
+    robot.machine.arm("Ada", robot.now)
+    robot.machine.test_motors(WALKER, "Ada", robot.now)
+    assert len(ended(robot)) == MOTORS
+    robot.machine.test_motors(WALKER, "Bo", robot.now)
+    now = robot.snapshot.motor_test
+    assert now is not None
+    assert (now.by, now.findings) == ("Bo", ())

@@ -97,15 +97,6 @@ def test_a_robot_that_rocks_onto_the_foot_that_is_lifted_from_under_it_gets_a_wa
     assert "does not fall" in tilt["sentence"]
 
 
-def test_a_robot_that_rocks_although_its_plan_has_a_reserve_ends_with_status_4(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    path = written(tmp_path / "tip.csv", standing(lift=0.005, aside=-0.0006))
-    status, answer = run_json(capsys, "simulate", path)
-    assert (status, answer["passed"]) == (4, False)
-    assert {one["rule"] for one in answer["findings"] if one["severity"] == "error"} == {"simulated_tilt"}
-
-
 @pytest.mark.heavy
 def test_a_gait_file_is_simulated_as_it_would_be_sent(
     capsys: pytest.CaptureFixture[str], tmp_path: Path

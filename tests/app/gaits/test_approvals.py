@@ -83,6 +83,18 @@ def test_a_newer_simulation_takes_verdict_and_approval_away_and_is_part_of_the_n
     assert "simulated_slip" in {margin.rule for margin in verdict.margins}
 
 
+def test_the_same_simulation_again_leaves_the_approval_alone(
+    opened: Opened, simulations: list[Simulated]
+) -> None:
+    service = opened()
+    waypoints = simulate(service, simulations)
+    approved(service)
+    assert service.on_simulated(waypoints) == ()
+    simulate(service, simulations)
+    assert service.on_simulated(waypoints) == (), "such as one for another gait with the same waypoints"
+    assert service.open_gait(GAIT).approval is not None
+
+
 def test_a_verdict_that_a_simulation_overtook_cannot_be_approved_nor_sent(
     opened: Opened, simulations: list[Simulated]
 ) -> None:

@@ -18,7 +18,7 @@ from core.gait.recording import RecordingFit, WithinStroke
 from core.overrides import OVERRIDABLE
 from core.physics.masses import default_physics
 from core.physics.metrics import report
-from core.recorded.ways_within import refitted
+from core.recorded.fit_choices import refitted
 from solver_jobs import simulate, solve_live
 from tests.support.reference import reference_path
 

@@ -36,6 +36,7 @@ from core.wire.waypoint_path import waypoints_from_trajectory
 from core.wire.waypoints import format_waypoint_csv
 from solver_jobs import MotionResult, solve_live
 from tests.app.documents.test_gait_json import PROVENANCE
+from tests.support.beyond_range import lowered, recorded_gait
 from tests.support.reference import reference_path
 
 MODEL = load_robot("deltawalker")
@@ -316,3 +317,12 @@ def test_a_recorded_motion_comes_back_only_to_its_own_timeline(service: GaitServ
         service.undo(mine, ada)
     service.undo(mine, bo)
     assert service.undo(mine, ada).gait == service.open_gait(mine).saved
+
+
+def test_a_motion_that_is_refused_for_the_least_excess_does_not_pass_the_check() -> None:
+    motion = lowered(0.0)
+    lowest = float(motion.strokes(load_robot("deltawalker")).min())
+    gait = recorded_gait(lowest - load_robot("deltawalker").stroke.lower + 5e-7)
+    plan = planned(gait)
+    assert plan.is_out_of_range
+    assert "stroke" in {finding.rule for finding in verdict_of(plan, gait).errors}

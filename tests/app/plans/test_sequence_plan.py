@@ -10,10 +10,17 @@ import pytest
 
 from app.documents.gait_json import gait_content
 from app.emulator.emulated_robot import EmulatedRobot
+from app.plans.make_plan import make_plan
+from app.plans.plan import verdict_of
+from app.plans.sequence_plan import sequence_plan
 from core.gait.gait import Gait, SequencePart
+from core.gait.recording import RecordingFit, WithinStroke
 from core.library.library import library
 from core.library.sequence import sequence_gait
+from core.recorded.fit_choices import refitted
 from core.wire.trajectory_csv import parse_trajectory_csv
+from solver_jobs import solve_live
+from tests.support.beyond_range import recorded_gait
 from tests.support.command import run, run_json
 from tests.support.studio_process import StudioProcess, wait_for
 
@@ -189,3 +196,17 @@ def test_the_command_line_says_which_part_has_no_motion(
     status, _, err = run(capsys, "check", str(path))
     assert status == 3
     assert "Part 2, “Far”, has no motion" in err
+
+
+def test_strokes_that_were_clipped_in_a_part_are_said_of_the_sequence() -> None:
+    gait = recorded_gait(0.002)
+    assert gait.recorded is not None
+    clipped = refitted(gait, RecordingFit(within_stroke=WithinStroke.CLIP))
+    alone = make_plan(clipped, None, solve_live)
+    twice = sequence_gait("Twice", [SequencePart(clipped, 2)])
+    plan = sequence_plan(twice, lambda run: make_plan(run, None, solve_live), solve_live)
+    assert plan.clipped is not None
+    assert alone.clipped is not None
+    assert plan.clipped.max() == alone.clipped.max()
+    assert (plan.clipped > 0).sum() == 2 * (alone.clipped > 0).sum()
+    assert any("were clipped" in finding.sentence for finding in verdict_of(plan, twice).findings)

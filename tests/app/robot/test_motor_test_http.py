@@ -72,7 +72,7 @@ def test_the_answer_has_its_schema_and_an_unknown_field_is_refused(studio: Studi
     assert begin(studio, robots="deltawalker").status == 422
 
 
-def test_nobody_else_begins_or_ends_it_and_cancel_ends_it_early(armed: StudioProcess) -> None:
+def test_nobody_else_begins_it_and_anybody_ends_it_early(armed: StudioProcess) -> None:
     refused = begin(armed, GRACE)
     assert (refused.status, "Ada is in control" in refused.content["error"]) == (409, True)
     armed.ask("POST", "/api/robot/fault", {"name": "stuck-motor", "motors": [1]})
@@ -81,8 +81,7 @@ def test_nobody_else_begins_or_ends_it_and_cancel_ends_it_early(armed: StudioPro
     assert begun.content["motor"] == 1
     assert begin(armed).status == 409
     wait_for(lambda: shown(armed)["findings"], "the first motor was tested", LONG)
-    assert armed.ask("POST", f"{WAY}/cancel", None, GRACE).status == 409
-    assert armed.ask("POST", f"{WAY}/cancel", None, ADA).status == 200
+    assert armed.ask("POST", f"{WAY}/cancel", None, GRACE).status == 200
     wait_for(lambda: shown(armed)["state"] == "cancelled", "the test is over", LONG)
     wait_for(lambda: armed.robot()["robot"] == "armed", "the robot is armed", LONG)
     first = shown(armed)["findings"][0]

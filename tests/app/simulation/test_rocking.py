@@ -63,7 +63,7 @@ def test_without_a_simulation_rocking_is_an_error_that_names_the_simulation_and_
             assert one.is_overridable
             assert one.sentence.endswith(one.remedy)
             assert one.remedy.endswith(SIMULATE)
-    assert SIMULATE.index("simulate") < SIMULATE.index("override")
+    assert SIMULATE.index("simulation") < SIMULATE.index("override")
 
 
 def test_a_simulated_robot_that_rocks_and_does_not_fall_makes_it_a_warning_that_names_the_foot() -> None:
@@ -127,3 +127,14 @@ def test_a_plan_in_which_no_foot_stands_has_none_to_rock_onto() -> None:
         (error,) = [one for one in check_plan(floating, given).errors if one.value is None]
         assert error.rule == "balance"
         assert SIMULATE not in error.sentence
+
+
+def test_only_the_robots_usual_physics_says_that_it_rocks() -> None:
+    plan, problem = parts()
+    other = replace(
+        problem, physics=replace(problem.physics, name="soft", friction=problem.physics.friction / 2)
+    )
+    rocks: dict[str, Any] = {"max_tilt": LEAN, "max_tilt_time": 6.0, "swing_load": ONTO_FOOT_4}
+    figures = replace(report(other, followed(other)), **rocks)
+    verdict = check_plan(plan, Simulated(figures, other, "key"))
+    assert {"balance", "path_balance"} <= rules(verdict.errors)

@@ -14,7 +14,7 @@ from app.plans.plan import sending_of
 from app.simulation.problem import way_problem
 from core.checks.checked_plan import checked_plan
 from core.checks.made_plan import made_plan
-from core.checks.rocking import ROCKING_RULES
+from core.checks.rocking import PLANNED_ROCKING
 from core.checks.rules import check_plan, check_waypoints
 from core.checks.simulation import Simulated
 from core.errors import InfeasibleError
@@ -66,7 +66,7 @@ class Verdicts:
             return True
         broken = {error.rule for error in self.trajectory.errors}
         rocks = self.walks and not self.figures.fell and broken >= {"balance"}
-        others = broken - set(ROCKING_RULES)
+        others = broken - set(PLANNED_ROCKING)
         return rocks and not self.waypoints.passed and self.simulated.passed == (not others)
 
 

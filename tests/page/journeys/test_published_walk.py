@@ -70,7 +70,7 @@ def test_a_published_walk_is_sent_within_eight_clicks_and_says_what_was_changed(
     click(page.get_by_role("button", name="Send to robot", exact=True))
     expect(page.get_by_role("status", name="Robot")).to_contain_text("The plan is done")
     assert len(clicked) <= MOST_CLICKS, clicked
-    view = json.loads(studio.blob("/api/gaits/walk_a"))
+    view = json.loads(studio.blob("/api/gaits/walk-a/view"))
     document = view["document"]
     assert document["recorded"]["text"] == file.read_text(), "the recording is unchanged"
     assert document["recorded"]["fit"]["within_stroke"] == "clip"

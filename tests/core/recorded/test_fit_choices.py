@@ -9,8 +9,8 @@ from core.gait.gait import Gait
 from core.gait.recording import Recording, RecordingFit, WithinStroke
 from core.library.library import library
 from core.motion.within_stroke import beyond_range
+from core.recorded.fit_choices import fit_choices, refitted
 from core.recorded.recorded_motion import gait_motion
-from core.recorded.ways_within import refitted, ways_within
 from tests.support.beyond_range import MODEL, recorded_gait
 
 
@@ -21,7 +21,7 @@ def recording_of(gait: Gait) -> Recording:
 
 def test_every_way_is_within_the_range_and_keeps_the_file() -> None:
     gait = recorded_gait(0.002)
-    ways = list(ways_within(gait, recording_of(gait)))
+    ways = list(fit_choices(gait, recording_of(gait)))
     assert [way.label.split()[0] for way in ways] == ["Keep", "Raise", "Scale"]
     for way in ways:
         recording = recording_of(way.gait)
@@ -34,14 +34,14 @@ def test_every_way_is_within_the_range_and_keeps_the_file() -> None:
 
 def test_a_scaled_motion_asks_for_the_scaled_step() -> None:
     gait = recorded_gait(0.002)
-    scaled = list(ways_within(gait, recording_of(gait)))[-1].gait
+    scaled = list(fit_choices(gait, recording_of(gait)))[-1].gait
     scale = recording_of(scaled).fit.scale
     assert scaled.step == pytest.approx([scale * value for value in gait.step], abs=1e-9)
 
 
 def test_the_body_is_raised_by_no_more_than_is_needed() -> None:
     gait = recorded_gait(0.002)
-    raised = list(ways_within(gait, recording_of(gait)))[1]
+    raised = list(fit_choices(gait, recording_of(gait)))[1]
     fit = recording_of(raised.gait).fit
     assert 0 < fit.body <= 0.002
     less = refitted(gait, RecordingFit(body=fit.body - 0.0001))
@@ -50,7 +50,7 @@ def test_the_body_is_raised_by_no_more_than_is_needed() -> None:
 
 def test_beyond_five_millimetres_only_the_body_and_the_scale_help() -> None:
     gait = recorded_gait(0.008)
-    assert [way.label.split()[0] for way in ways_within(gait, recording_of(gait))] == ["Raise"]
+    assert [way.label.split()[0] for way in fit_choices(gait, recording_of(gait))] == ["Raise"]
 
 
 def test_a_gait_without_a_recording_and_absurd_values_are_refused() -> None:
@@ -60,3 +60,24 @@ def test_a_gait_without_a_recording_and_absurd_values_are_refused() -> None:
         RecordingFit(body=0.06)
     with pytest.raises(InputError, match="would be scaled by nan"):
         RecordingFit(scale=float("nan"))
+
+
+def test_the_question_about_the_frame_is_asked_once() -> None:
+    gait = recorded_gait(0.022)
+    (asked, *_) = fit_choices(gait, recording_of(gait))
+    assert asked.label == "Correct the heights"
+    labels = [choice.label for choice in fit_choices(asked.gait, recording_of(asked.gait))]
+    assert labels
+    assert "Correct the heights" not in labels
+
+
+def test_a_choice_that_was_made_is_not_offered_again() -> None:
+    gait = recorded_gait(0.002)
+    for choice in fit_choices(gait, recording_of(gait)):
+        for next_one in fit_choices(choice.gait, recording_of(choice.gait)):
+            assert next_one.gait != choice.gait, next_one.label
+
+
+def test_a_body_that_would_be_raised_too_far_is_not_offered() -> None:
+    gait = recorded_gait(0.06)
+    assert [choice.label.split()[0] for choice in fit_choices(gait, recording_of(gait))] == []

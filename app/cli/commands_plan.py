@@ -12,8 +12,8 @@ from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, NOT_FIT, note, show, verdict_lines, write
 from app.cli.common.within_stroke import OPTION, add_within_stroke, kept_within
 from app.common.clipped import clipped_content
-from app.export.trajectory_files import read_trajectory, write_waypoints
-from app.export.way_files import is_way_file, read_way_file
+from app.export.trajectory_files import read_trajectory
+from app.export.way_files import checked_way, is_way_file, read_way_file, write_way
 from app.gaits.verdict_views import verdict_view
 from app.simulation.physics_check import checked_in_physics
 from core.arrays import Floats
@@ -26,7 +26,7 @@ from core.motion.within_stroke import beyond_strokes, clipped_strokes
 from core.robot.kinematics import UnreachableError
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds, stop_time
-from core.wire.waypoint_merging import WaypointPlan, plan_of_knots, plan_waypoints
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import format_waypoint_csv
 
 ROBOT = "deltawalker"
@@ -59,9 +59,10 @@ def run_waypoints(options: Namespace) -> int:
         note(assumption)
     model = load_robot(options.robot or read.robot or ROBOT)
     trajectory, clipped = kept_within(options, model, read.trajectory)
-    waypoints = plan_waypoints(model, trajectory, options.merge or 0.0, options.stop_bound).waypoints
+    way = plan_waypoints(model, trajectory, options.merge or 0.0, options.stop_bound)
+    waypoints = way.waypoints
     if options.output is not None:
-        write_waypoints(options.output, waypoints)
+        write_way(options.output, model, trajectory, way, clipped, options.file.name)
     content = {
         "waypoints": waypoints.count,
         "hash": waypoints.content_hash,
@@ -162,8 +163,7 @@ def _judged_way(options: Namespace) -> _Judged:
     for assumption in way.assumptions:
         note(assumption)
     if way.motion is not None:
-        sent = plan_of_knots(way.model, way.motion, way.waypoints)
-        return _Judged(checked_in_physics(CheckedPlan(way.model, way.motion, sent.waypoints, way=sent)))
+        return _Judged(checked_in_physics(checked_way(way.model, way.motion, way)), way.clipped)
     note(
         f"{path.name} has no companion with its motion: only what waypoints alone can show is checked "
         "(range, durations, time before Stop is heard, balance, distance of shoes). Footholds, "

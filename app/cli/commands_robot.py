@@ -21,13 +21,15 @@ from app.common.signals import ending_signals
 from app.emulator.emulated_robot import start_emulator
 from app.emulator.faults import Fault, FaultRequest
 from app.emulator.profiles import ProfileName
-from app.export.trajectory_files import read_waypoints
+from app.export.trajectory_files import companion_path, read_waypoints
+from app.export.way_files import checked_way, read_way_file
 from app.gaits.verdict_views import approval_view, override_view, override_words, verdict_view
 from app.store.gait_files import default_data_folder
-from core.checks.rules import check_waypoints
+from core.checks.rules import check_plan, check_waypoints
 from core.errors import CheckError, InputError, RobotError
 from core.findings import Approval, Verdict, approve, override_all
-from core.robot.model import load_robot
+from core.robot.model import RobotModel, load_robot
+from core.wire.waypoints import Waypoints
 
 LOOK_SECONDS = 0.2
 """How often an emulated robot is looked at for fault states."""
@@ -165,7 +167,7 @@ def run_send(options: Namespace) -> int:
     """Checks, approves and streams a waypoint file as a run that is kept; Ctrl-C is Stop."""
     end_on_signals()
     waypoints, model = read_waypoints(options.file), load_robot("deltawalker")
-    verdict = check_waypoints(model, waypoints)
+    verdict = _verdict(options.file, model, waypoints)
     _require_numbers(options.file, verdict)
     if not verdict.passed and options.override is None:
         return _refuse(options, verdict)
@@ -175,6 +177,17 @@ def run_send(options: Namespace) -> int:
     ended = stream(plan, run_of_file(model, plan, options.file), options.robot, data, clears_stop=clears_stop)
     status = _report(options, ended.snapshot, plan)
     return INTERRUPTED if ended.is_interrupted else status
+
+
+def _verdict(file: Path, model: RobotModel, waypoints: Waypoints) -> Verdict:
+    """By every rule where the file's companion has the motion, else by what waypoints alone can show."""
+    if companion_path(file).exists():
+        read = read_way_file(file, model.name)
+        for assumption in read.assumptions:
+            note(assumption)
+        if read.motion is not None:
+            return check_plan(checked_way(model, read.motion, read))
+    return check_waypoints(model, waypoints)
 
 
 def _require_numbers(file: Path, verdict: Verdict) -> None:

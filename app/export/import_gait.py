@@ -60,7 +60,9 @@ def read_gait(
     if sample_time is not None:
         raise InputError("A sample time is chosen for phase lists only; this is none.", "sample_time")
     form = RecordingForm.WAYPOINTS if is_waypoint_text(text) else RecordingForm.TRAJECTORY
-    recording = Recording(where, form, text, companion, fit=fit)
+    # Beside waypoints a companion says what is found from the strokes here.
+    own = companion if form is RecordingForm.TRAJECTORY else None
+    recording = Recording(where, form, text, own, fit=fit)
     return gait_of_recording(recording, name or _name_of(where), robot)
 
 
@@ -86,7 +88,7 @@ def gait_of_recording(recording: Recording, name: str, robot: str | None = None)
     changed = fit_words(recording.fit, motion.clipped)
     remarks = (
         _KEPT[recording.form].format(file=recording.file),
-        *((f"{changed[0].upper()}{changed[1:]}.",) if changed else ()),
+        *((f"It is changed to fit the robot: {changed}.",) if changed else ()),
         *described.remarks,
         *assumed,
     )

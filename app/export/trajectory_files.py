@@ -12,7 +12,7 @@ from core.wire.trajectory_csv import (
     format_trajectory_csv,
     parse_trajectory_csv,
 )
-from core.wire.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
+from core.wire.waypoints import Waypoints, parse_waypoint_csv
 
 LOWEST_BODY = 0.005
 """A centre of mass is never lower all the time, m."""
@@ -106,8 +106,3 @@ def read_motion_npz(path: Path) -> MotionFile:
 def read_waypoints(path: Path) -> Waypoints:
     """Reads a waypoint CSV."""
     return parse_waypoint_csv(read_text(path), name=path.name)
-
-
-def write_waypoints(path: Path, waypoints: Waypoints) -> None:
-    """Writes a waypoint CSV whole or not at all."""
-    write_atomically(path, format_waypoint_csv(waypoints))

@@ -1,14 +1,18 @@
 """Waypoint files with their companions."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from app.common.clipped import clipped_content, clipped_from_content
 from app.common.json import Json
 from app.export.trajectory_files import companion_path, read_text
 from app.store.plain_file import write_atomically
+from core.arrays import Floats
+from core.checks.checked_plan import Beyond, CheckedPlan
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.pose_gait import PoseGait
+from core.robot.kinematics import walker_feet
 from core.robot.model import RobotModel, load_robot
 from core.wire.waypoint_companion import (
     WaypointCompanion,
@@ -16,6 +20,7 @@ from core.wire.waypoint_companion import (
     parse_waypoint_companion,
     require_same_strokes,
 )
+from core.wire.waypoint_merging import WaypointPlan, plan_of_knots
 from core.wire.waypoints import (
     Waypoints,
     format_waypoint_csv,
@@ -36,12 +41,14 @@ class WayFile:
         waypoints: the file's.
         motion: body, feet and contact at each waypoint; None where no companion says.
         assumptions: sentences on what was assumed.
+        clipped: (count, legs, 3) how far strokes were clipped, m, each foot's largest; None where none were.
     """
 
     model: RobotModel
     waypoints: Waypoints
     motion: Trajectory | None
     assumptions: tuple[str, ...] = ()
+    clipped: Floats | None = None
 
 
 def is_way_file(path: Path) -> bool:
@@ -75,9 +82,50 @@ def read_way_file(path: Path, robot: str | None = None) -> WayFile:
     if isinstance(companion, WaypointCompanion):
         if companion.motion is not None:
             require_same_strokes(model, companion.motion, waypoints, path.name)
-        return WayFile(model, waypoints, companion.motion)
+        cut = clipped_from_content(companion.origin.get("clipped_mm", []), waypoints.strokes.shape)
+        return WayFile(model, waypoints, companion.motion, clipped=cut)
     assumptions = () if companion is None else (companion,)
     return WayFile(model, waypoints, None, assumptions)
+
+
+def checked_way(model: RobotModel, motion: Trajectory, file: WayFile) -> CheckedPlan:
+    """A waypoint file as every rule judges it, by the motion of its companion.
+
+    Args:
+        model: the robot.
+        motion: the companion's.
+        file: the file.
+    """
+    sent = plan_of_knots(model, motion, file.waypoints)
+    return CheckedPlan(model, motion, sent.waypoints, way=sent, beyond=Beyond(file.clipped))
+
+
+def write_way(
+    path: Path, model: RobotModel, motion: Trajectory, way: WaypointPlan, clipped: Floats | None, source: str
+) -> None:
+    """Writes what is sent of a motion, and beside a plain file its companion, each whole or not at all.
+
+    The companion has the motion too where each sample is a waypoint.
+
+    Args:
+        path: the CSV.
+        model: the robot.
+        motion: what is sent.
+        way: as which waypoints.
+        clipped: (n, legs, 3) how far each stroke of the motion was clipped, m; None where none was.
+        source: name of the file that the motion was read from, for the companion.
+    """
+    text = format_waypoint_csv(way.waypoints)
+    cut = None if clipped is None else clipped[list(way.kept)]
+    origin = {"trajectory": source, "clipped_mm": clipped_content(cut)}
+    # Where waypoints were merged or cut, the motion at them is not that of a sample.
+    is_whole = way.waypoints.count == motion.knot_count and not way.merge
+    feet = walker_feet(model, way.waypoints.strokes, motion.pose(model)) if is_whole else None
+    there = None if feet is None else replace(motion, feet_world=feet, feet_velocity=None)
+    companion = WaypointCompanion(model.name, way.stop_bound, origin, there)
+    write_atomically(path, text)
+    if path.is_file():
+        write_atomically(companion_path(path), format_waypoint_companion(companion, text))
 
 
 def write_pose_gait(path: Path, gait: PoseGait, origin: Json) -> None:

@@ -12,10 +12,11 @@ import numpy as np
 
 from app.common.json import Json
 from app.gaits.live_plans import LivePlans
-from app.plans.plan import Plan, PlanSource
+from app.plans.plan import Plan, PlanSource, verdict_of
 from app.remedies.views import Change, Tried, remedy_view
 from app.simulation.problem import simulation_problem
 from app.simulation.repository import SimulationRepository, SimulationResult, simulation_row
+from core.checks.simulation import Simulated
 from core.errors import FootfallError, SimulationCancelledError
 from core.findings import Severity
 from core.gait.gait import Gait
@@ -279,7 +280,7 @@ class RemedyRun:
             return
         known = self._parts.simulations.simulated(offer.plan)
         if known is not None and known.problem.physics == default_physics(self._model):
-            offer.tried = _tried(known.report, known.problem)
+            offer.tried = _tried(offer, known.report, known.problem)
             self._try_next()
             return
         problem = simulation_problem(offer.plan, default_physics(self._model))
@@ -300,7 +301,7 @@ class RemedyRun:
         except FootfallError as error:
             offer.tried = Tried(walks=None, sentence=error.sentence)
         else:
-            offer.tried = _tried(figures, problem)
+            offer.tried = _tried(offer, figures, problem)
 
     def _content(self) -> Json:
         offers = self._shown()
@@ -322,10 +323,15 @@ class RemedyRun:
         )
 
 
-def _tried(figures: SimulationReport, problem: SimulationProblem) -> Tried:
-    """What physics says of a change: its first error, or how far it leans where it rocks."""
+def _tried(offer: _Offer, figures: SimulationReport, problem: SimulationProblem) -> Tried:
+    """What physics says of a change: its first error, or how far it leans; and of a recording the check."""
     findings = [one for outcome in physics_outcomes(figures, problem) for one in outcome.findings]
     errors = [one.sentence for one in findings if one.severity is Severity.ERROR]
     rocks = any(one.rule in SIMULATED_ROCKING for one in findings)
     leans = f"It leans by up to {np.degrees(figures.max_tilt):.1f}° and does not fall."
-    return Tried(not errors, errors[0] if errors else leans if rocks else "")
+    said = [leans] if rocks else []
+    if offer.plan.source is PlanSource.RECORDED:
+        verdict = verdict_of(offer.plan, offer.change.gait, Simulated(figures, problem))
+        broken = ", ".join(sorted({error.rule for error in verdict.errors}))
+        said += [f"The check finds errors then ({broken}); a person may override them."] if broken else []
+    return Tried(not errors, errors[0] if errors else " ".join(said))

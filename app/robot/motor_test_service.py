@@ -86,13 +86,23 @@ _ENDS = {
 
 def _sentence(shown: MotorTestProgress) -> str:
     """How far the test is, and which motors are not good."""
-    tested = f"{_ENDS[shown.state]} {len(shown.findings)} of {MOTORS} motors tested"
-    bad = [str(one.motor + 1) for one in shown.findings if one.verdict is not MotorVerdict.GOOD]
+    count = sum(one.verdict is not MotorVerdict.NOT_TESTED for one in shown.findings)
+    tested = f"{_ENDS[shown.state]} {count} of {MOTORS} motors tested"
+    untested = [str(one.motor + 1) for one in shown.findings if one.verdict is MotorVerdict.NOT_TESTED]
+    good = [one for one in shown.findings if one.verdict is MotorVerdict.GOOD]
+    bad = [
+        str(one.motor + 1)
+        for one in shown.findings
+        if one.verdict not in (MotorVerdict.GOOD, MotorVerdict.NOT_TESTED)
+    ]
     if not shown.findings:
         return f"{tested}."
-    if not bad:
-        return f"{tested}, all good."
-    return f"{tested}, not good: {', '.join(bad)}."
+    said = [
+        "all good" if len(good) == len(shown.findings) else "",
+        f"not good: {', '.join(bad)}" if bad else "",
+        f"could not be tested: {', '.join(untested)}" if untested else "",
+    ]
+    return f"{tested}; {'; '.join(filter(None, said))}."
 
 
 def _finding(finding: MotorFinding) -> Json:

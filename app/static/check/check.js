@@ -89,7 +89,8 @@ const approvalNote = ({ passed }) => (passed ? APPROVED_ONCE : OVERRIDE_WHY);
 function adviceOn(verdict) {
   if (verdict.passed) return "Read the findings before you approve.";
   if (whyNotOverride(verdict)) return "Errors block approval.";
-  return "Correct the gait, or press Approve to override the errors with a reason.";
+  const tick = warningsOf(verdict).length ? "tick that you have seen the warnings and " : "";
+  return `Correct the gait, or ${tick}press Approve to override the errors with a reason.`;
 }
 
 function summary(view, before) {

@@ -5,6 +5,7 @@ import { fixed } from "../lib/format.js";
 import { keepPlace } from "../lib/keep_place.js";
 import { jobOf } from "../shell/job_list.js";
 import { fallOf, isRefusedDrawing } from "../state/live_plan.js";
+import { isError } from "../state/simulation.js";
 import { ownPlan } from "../state/store.js";
 import { remedyList } from "./remedy_list.js";
 import { tryouts } from "./tryout.js";
@@ -122,8 +123,9 @@ function verdictOf(state, goTo) {
       mendable: true,
     };
   const fall = fallOf(state);
+  const fallTitle = fall && isError(fall) ? "The robot would tip over" : "The robot would rock";
   return fall
-    ? { title: "The robot would tip over", about: fall.sentence, build: first(fall.sentence), mendable: true }
+    ? { title: fallTitle, about: fall.sentence, build: first(fall.sentence), mendable: true }
     : null;
 }
 

@@ -7,6 +7,7 @@ import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { byId, h } from "../lib/dom.js";
 import { clockTime } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
+import { openStep } from "../steps/steps.js";
 import { askNewGait } from "./new_gait.js";
 
 const FORMS = [
@@ -254,6 +255,8 @@ function importFiles(show) {
       for (const { name, body } of chosen) {
         const view = await api.importFile(body, name);
         await show(view.id);
+        // What an imported motion lacks stands in the step Design.
+        openStep("design");
         if (view.remarks.length)
           remarks.push([...(chosen.length > 1 ? [`${name}:`] : []), ...view.remarks].join(" "));
         // Showing the next one takes away what belongs to this one: all sentences stand beside the last.

@@ -115,7 +115,7 @@ export function simulationText({ report: outcome, findings }) {
   if (outcome.fell) return ["Falls over", "bad"];
   if (outcome.ended_early) return ["Ended early", "bad"];
   const errors = findings.filter(isError);
-  if (findings.some(isTip)) return ["Tips", errors.length ? "bad" : "caution"];
+  if (findings.some(isTip)) return errors.length ? ["Tips", "bad"] : ["Walks, but rocks", "caution"];
   if (errors.length) return ["Does not walk", "bad"];
   return findings.length ? ["Walks, with warnings", "caution"] : ["Walks", "good"];
 }

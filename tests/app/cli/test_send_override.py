@@ -59,7 +59,7 @@ def test_without_an_override_the_errors_stand_and_the_way_out_is_named(
 ) -> None:
     status, answer = refused(capsys, tipping, robot)
     assert (status, answer["passed"]) == (4, False)
-    assert {one["rule"] for one in answer["findings"] if one["overridable"]} == {"balance"}
+    assert {one["rule"] for one in answer["findings"] if one["overridable"]} == {"balance", "path_balance"}
     status, out, _ = run(capsys, *words(tipping, robot.device))
     assert (status, "--override REASON sends in spite of these errors" in out) == (4, True)
 
@@ -71,7 +71,7 @@ def test_the_file_is_sent_and_the_override_stands_in_answer_and_run(
     answer = json.loads(out)
     assert (status, answer["state"], answer["reached"]) == (0, "done", answer["count"])
     by = answer["approval"]["by"]
-    assert answer["override"] == {"rules": ["balance"], "reason": REASON, "by": by}
+    assert answer["override"] == {"rules": ["balance", "path_balance"], "reason": REASON, "by": by}
     assert answer["approval"]["override"]["errors"][0]["rule"] == "balance"
     assert "Not fit: " in err
     database = Database(tipping.parent / "data" / "studio.sqlite3")

@@ -140,7 +140,8 @@ export function start(store) {
   mountOffline(store);
   mountStorageNotice(store);
   mountFileNotice(store, edits);
-  const gaitTools = mountGaitTools(store, edits, (id) => selectGait(store, id));
+  const show = (id) => selectGait(store, id);
+  const gaitTools = mountGaitTools(store, edits, show, () => openStep("design"));
   mountJobs(store, (id) => selectGait(store, id));
   const { timeline, actions, zoom, tools } = mountEditor(store, edits, playback);
   mountPlayback(store, playback, mountPlots(store), actions.loop);

@@ -7,7 +7,6 @@ import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { byId, h } from "../lib/dom.js";
 import { clockTime } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
-import { openStep } from "../steps/steps.js";
 import { askNewGait } from "./new_gait.js";
 
 const FORMS = [
@@ -119,10 +118,11 @@ function gaitActs(store, edits, show, deletedHere) {
  * @param {import("../state/store.js").Store} store
  * @param {import("../state/edits.js").Edits} edits what was done before is part of a copy and of a file
  * @param {(id: string) => Promise<void>} show shows a gait
+ * @param {() => void} openDesign opens the step Design
  * @returns {Record<"addNew"|"addAct", (entry: Entry) => void>} another entry of the menu New, and of the menu
  *   Gait, before Delete
  */
-export function mountGaitTools(store, edits, show) {
+export function mountGaitTools(store, edits, show, openDesign) {
   const deletedHere = new Set();
   watchDeleted(store, show, deletedHere);
   const news = actionMenu({
@@ -137,7 +137,7 @@ export function mountGaitTools(store, edits, show) {
       {
         text: "Import…",
         help: "Import gaits, trajectories with their metadata, waypoints or phase lists from files",
-        act: () => importFiles(show),
+        act: () => importFiles(show, openDesign),
       },
       {
         text: "Deleted gaits…",
@@ -244,8 +244,9 @@ async function bodies(files) {
 /**
  * Lets a person choose files and makes a gait of each.
  * @param {(id: string) => Promise<void>} show shows a gait
+ * @param {() => void} openDesign opens the step where it stands what an imported motion lacks
  */
-function importFiles(show) {
+function importFiles(show, openDesign) {
   const input = h("input", { type: "file", accept: KINDS, multiple: true });
   input.addEventListener(
     "change",
@@ -255,8 +256,7 @@ function importFiles(show) {
       for (const { name, body } of chosen) {
         const view = await api.importFile(body, name);
         await show(view.id);
-        // What an imported motion lacks stands in the step Design.
-        openStep("design");
+        openDesign();
         if (view.remarks.length)
           remarks.push([...(chosen.length > 1 ? [`${name}:`] : []), ...view.remarks].join(" "));
         // Showing the next one takes away what belongs to this one: all sentences stand beside the last.

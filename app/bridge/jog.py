@@ -74,7 +74,7 @@ class Jog:
 
     @property
     def end_words(self) -> str:
-        """What is said at its end."""
+        """The sentence at its end."""
         planned, made = len(self._plan.way), len(self._moves)
         return "Jog done." if made == planned else f"Jog ended early, after {made} of {planned} moves."
 
@@ -98,7 +98,7 @@ class Jog:
         del self._moves[self._sent :]
 
     def progress(self) -> JogProgress:
-        """What to show of it."""
+        """The state of the jog, for display."""
         return JogProgress(self._plan.text, self._by, self._reached, len(self._moves), self._largest)
 
 

@@ -46,7 +46,7 @@ MOST_LINES = 20
 """A robot that was let go begins its work within so many lines."""
 
 SETTLED_READINGS = 8
-"""Readings after a stop whose mean is taken for where the motors stand."""
+"""Number of readings after a stop; their mean is the position of each motor."""
 
 SETTLED_MM = 0.3
 """Readings of a motor that stands differ by less, noise included, mm."""
@@ -120,7 +120,7 @@ class MotorTest:
         self._script.close()
 
     def progress(self) -> MotorTestProgress:
-        """What to show of it."""
+        """The state of the test, for display."""
         return MotorTestProgress(self._by, self._state, self._motor, tuple(self._findings))
 
     def advance(self, line: Line | None) -> Order | None:
@@ -182,7 +182,7 @@ class MotorTest:
     def _unwind(self, move: MotorMove, here_mm: Floats) -> Generator[Order | None, Line | None, Floats]:
         """Drives a motor that did not answer the other way for one ramp, where that is allowed.
 
-        A rod whose potentiometer is dead comes back by that, and the controller forgets its error.
+        This brings back a rod whose potentiometer is dead, and clears the sum of the controller.
         """
         back = move.opposite(self._model)
         return here_mm if back is None else (yield from self._go(move.motor, back, here_mm))

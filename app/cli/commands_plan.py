@@ -106,7 +106,7 @@ def run_check(options: Namespace) -> int:
 
 @dataclass(frozen=True, eq=False)
 class _Judged:
-    """What is said of a file.
+    """The result of checking a file.
 
     Args:
         verdict: of every rule.
@@ -157,7 +157,7 @@ def _plan_alone(
 
 
 def _judged_way(options: Namespace) -> _Judged:
-    """What is said of a waypoint file: by every rule where its companion has the motion."""
+    """Checks a waypoint file: by every rule if its companion has the motion."""
     path: Path = options.file
     way = read_way_file(path, options.robot)
     for assumption in way.assumptions:

@@ -116,7 +116,7 @@ def _simulated(problem: SimulationProblem) -> SimulatedMotion:
 
 
 def _problem(options: Namespace) -> tuple[SimulationProblem, Floats | None]:
-    """What is simulated, and how far each of its strokes was clipped, m."""
+    """The problem for the physics, and how far each of its strokes was clipped, m."""
     model, trajectory, gait, recorded = _input(options)
     trajectory, clipped = kept_within(options, model, trajectory, recorded)
     merge, bound = (0.0, None) if gait is None else sending_of(gait)

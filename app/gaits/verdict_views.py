@@ -19,7 +19,7 @@ def approval_view(approval: Approval) -> Json:
 
 
 def override_view(approval: Approval) -> Json | None:
-    """Who approved in spite of errors of which rules, and why; None where no error stood."""
+    """The rules that an approval overrides, the reason, and the person; None where no error stood."""
     override = approval.override
     if override is None:
         return None

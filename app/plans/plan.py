@@ -32,7 +32,7 @@ from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus
 
 KEEPS = "Clip its strokes, raise or lower the body, or make the motion smaller to keep the recording."
-"""What helps where a recorded motion leaves the motors' range."""
+"""Remedy for a recorded motion that leaves the motors' range."""
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
 """One waypoint a sample."""
 

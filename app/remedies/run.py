@@ -103,7 +103,7 @@ class PhysicsTier(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class RemedyParts:
-    """What a search uses: plans, what finds, finishes and tries, and where simulations are kept."""
+    """The services that a search uses, and the store of simulations."""
 
     live: LivePlans
     tier: RemedyTier
@@ -324,7 +324,7 @@ class RemedyRun:
 
 
 def _tried(offer: _Offer, figures: SimulationReport, problem: SimulationProblem) -> Tried:
-    """What physics says of a change: its first error, or how far it leans; and of a recording the check."""
+    """The result in physics: the first error, or how far the robot leans; for a recording also the check."""
     findings = [one for outcome in physics_outcomes(figures, problem) for one in outcome.findings]
     errors = [one.sentence for one in findings if one.severity is Severity.ERROR]
     rocks = any(one.rule in SIMULATED_ROCKING for one in findings)

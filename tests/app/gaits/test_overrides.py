@@ -45,8 +45,10 @@ def opened(tmp_path: Path, database: Database, simulations: list[Simulated]) -> 
 
     def open_service() -> GaitService:
         files = GaitFiles(tmp_path)
-        known = lambda plan: simulations[-1] if simulations else None  # noqa: E731
-        return GaitService(files, database, lambda gait: no_solver, simulated_for=known)
+        return GaitService(files, database, lambda gait: no_solver, simulated_for=last)
+
+    def last(plan: Plan) -> Simulated | None:
+        return simulations[-1] if simulations else None
 
     return open_service
 

@@ -25,7 +25,7 @@ from tests.support.reference import reference_path
 SAMPLE = ("direction1/walk_a.csv", "direction2/mtri_d.csv", "rotation/rots_d.csv", "rotation/rots_dance.csv")
 COUNT = 79
 NEED_OVERRIDE = {"rots_d.csv", "rots_dance.csv"}
-"""Two feet of the first stand beyond their range at its end, the second has five poses; the others pass."""
+"""All feet of the first end its turn beyond the range, the second has five poses; the others pass."""
 
 
 def imported(path: Path) -> Gait:

@@ -7,7 +7,9 @@ import logging
 import os
 import subprocess
 import sys
+import urllib.request
 from collections.abc import Callable
+from contextlib import suppress
 from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
@@ -15,6 +17,7 @@ import pytest
 
 from app.cli.common.streams import LogFormatter, PrintableStream, prepare_streams
 from app.documents.gait_json import gait_content
+from app.store.folder_lock import studio_address
 from core.library.library import library
 from tests.support.closed_terminal import in_terminal
 from tests.support.command import run, run_json
@@ -31,15 +34,27 @@ NAMES = {
 }
 
 
+def closed_streams(*numbers: int) -> None:
+    """Closes standard streams in a new process."""
+    for number in numbers:
+        os.close(number)
+
+
+def children(parent: int) -> list[int]:
+    """The processes that a process has started."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):  # it has ended
+            number, _, rest = path.read_text().partition(" ")
+            if int(rest.rpartition(")")[2].split()[1]) == parent:
+                found.append(int(number))
+    return found
+
+
 def program(
     *words: str, closed: tuple[int, ...] = (), surroundings: dict[str, str] | None = None
 ) -> subprocess.CompletedProcess[bytes]:
     """Runs the command in a process of its own, without the standard streams that are named."""
-
-    def close() -> None:
-        for number in closed:
-            os.close(number)
-
     return subprocess.run(
         [sys.executable, "-m", "app", *words],
         cwd=PROJECT,
@@ -47,7 +62,7 @@ def program(
         stdin=subprocess.DEVNULL,
         capture_output=True,
         timeout=120,
-        preexec_fn=close,
+        preexec_fn=lambda: closed_streams(*closed),
         check=False,
     )
 
@@ -112,6 +127,27 @@ def test_a_missing_stream_is_like_dev_null(
     said = program(*words, closed=closed)
     assert said.returncode == status
     assert b"Traceback" not in said.stderr
+
+
+def test_a_studio_and_its_workers_run_without_streams_and_in_every_locale(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "app", "serve", "--port", "0", "--no-browser", "--data", str(tmp_path)]
+    with subprocess.Popen(
+        command, cwd=PROJECT, env=os.environ | PLAIN, preexec_fn=lambda: closed_streams(0, 1, 2)
+    ) as studio:
+        try:
+            wait_for(lambda: studio_address(tmp_path) is not None, "the studio has told its address")
+            address = studio_address(tmp_path) or ""
+            wait_for(lambda: len(children(studio.pid)) > 1, "the solvers are started")
+            with urllib.request.urlopen(address, timeout=60) as page:
+                assert "<title>Footfall Studio" in page.read().decode()
+            with urllib.request.urlopen(f"{address}api/gaits", timeout=60) as gaits:
+                assert "Rotate 45°" in {gait["name"] for gait in json.load(gaits)["gaits"]}
+            for process in (studio.pid, *children(studio.pid)):
+                streams = {os.readlink(f"/proc/{process}/fd/{number}") for number in (0, 1, 2)}
+                assert streams == {os.devnull}
+        finally:
+            studio.terminate()
+    assert studio.returncode == 0
 
 
 @pytest.mark.heavy

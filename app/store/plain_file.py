@@ -3,6 +3,7 @@
 import errno
 import os
 import stat
+import threading
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -59,7 +60,8 @@ def write_atomically(path: Path, content: str | bytes, before: Callable[[], obje
         StorageError: the disk does not take it; what was there before is as it was.
         InputError: the file cannot be written there.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    # Fits wherever the name itself fits; each thread has its own.
+    partial = path.with_name(f".{path.name[:40]}.{threading.get_ident():x}.{os.getpid()}.partial")
     try:
         partial.unlink(missing_ok=True)
         flags, mode = os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600 if os.path.lexists(path) else 0o666

@@ -6,6 +6,9 @@ import os
 import pty
 import socket
 import stat
+import subprocess
+import sys
+import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -15,8 +18,36 @@ import pytest
 
 from app.store.named_file import form_of, is_plain, open_file_number, write_named
 from core.errors import FootfallError, InputError, StorageFullError
+from tests.support.studio_process import PROJECT
 
 OLD, NEW = "old\n", "new content\n"
+
+
+WRITES = """
+import os, resource, sys
+from pathlib import Path
+from app.store.named_file import write_named
+from core.errors import FootfallError
+number = int(sys.argv[1])
+if number:
+    os.setgroups([]), os.setgid(number), os.setuid(number)
+else:
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+for path in sys.argv[2:]:
+    try:
+        write_named(Path(path), "new content" * 1000)
+    except FootfallError as refusal:
+        print(refusal.sentence)
+"""
+"""Writes files as another account, or as this one on a disk that takes 4 kB a file."""
+
+
+def said_of_writes(account: int, *paths: Path) -> list[str]:
+    """What a process that writes files says, a line for each refusal."""
+    command = [sys.executable, "-c", WRITES, str(account), *map(str, paths)]
+    return subprocess.run(
+        command, cwd=PROJECT, capture_output=True, text=True, check=True
+    ).stdout.splitlines()
 
 
 def write_beside(path: Path) -> None:
@@ -56,6 +87,13 @@ def test_a_new_file_has_the_mode_of_every_new_file(tmp_path: Path) -> None:
     write_named(tmp_path / "new.csv", NEW)
     (tmp_path / "other").touch()
     assert (tmp_path / "new.csv").stat().st_mode == (tmp_path / "other").stat().st_mode
+
+
+@pytest.mark.parametrize("name", ["n" * 251 + ".csv", "ä" * 125 + ".csv", "-", "a\nb\x1b.csv", " .csv"])
+def test_every_name_that_a_file_may_have_is_written(tmp_path: Path, name: str) -> None:
+    write_named(tmp_path / name, OLD)
+    write_named(tmp_path / name, NEW)
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [(name, NEW)]
 
 
 @pytest.mark.skipif(os.getuid() != 0, reason="only root gives files away")
@@ -219,6 +257,29 @@ def test_a_file_that_may_only_be_read_stays(old: Path, monkeypatch: pytest.Monke
     with pytest.raises(InputError, match="may only be read"):
         write_named(old, NEW)
     assert old.read_text() == OLD
+
+
+@pytest.mark.skipif(os.getuid() != 0, reason="only root can become somebody else")
+def test_an_account_without_the_rights_gets_a_sentence() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        theirs, mine, new = (Path(folder) / name for name in ("theirs.csv", "mine.csv", "new.csv"))
+        theirs.write_text(OLD)
+        mine.write_text(OLD)
+        os.chown(mine, 65534, 65534)
+        said = said_of_writes(65534, theirs, mine, new)
+        assert sorted(path.name for path in Path(folder).iterdir()) == ["mine.csv", "theirs.csv"]
+        assert theirs.read_text() == mine.read_text() == OLD
+    assert said[0].startswith(f"{theirs} cannot be written: it may only be read.")
+    for path, sentence in zip((mine, new), said[1:], strict=True):
+        assert sentence.startswith(f"{path} cannot be written: Permission denied. Give yourself the right")
+
+
+def test_a_disk_that_takes_no_more_leaves_the_file_as_it_was(old: Path) -> None:
+    (said,) = said_of_writes(0, old)
+    assert said == f"{old} cannot be written: File too large. Free space on its disk, then try again."
+    assert old.read_text() == OLD
+    assert [path.name for path in old.parent.iterdir()] == [old.name]
 
 
 def test_what_fails_before_the_end_leaves_the_file_as_it_was(old: Path) -> None:

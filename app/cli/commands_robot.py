@@ -223,7 +223,7 @@ def _approval(verdict: Verdict, options: Namespace) -> Approval:
     """
     name, reason = getpass.getuser(), options.override
     override = None if reason is None else override_all(verdict, reason)
-    note("\n".join(verdict_lines(verdict)))
+    note(*verdict_lines(verdict))
     if not options.yes:
         spite = "" if override is None else f" in spite of errors of {', '.join(override.rules)}"
         note(
@@ -238,7 +238,7 @@ def _approval(verdict: Verdict, options: Namespace) -> Approval:
 def _answer() -> str:
     try:
         return sys.stdin.readline().strip().lower()
-    except OSError:  # the terminal is closed
+    except (OSError, ValueError):  # the terminal is closed; bytes that are no text
         return ""
 
 

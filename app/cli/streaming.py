@@ -1,7 +1,6 @@
 """A waypoint file on its way to the robot: kept as a run, with its progress told, and stopped by Ctrl-C."""
 
 import secrets
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -17,7 +16,8 @@ from app.bridge.delivery import HELD_STOP
 from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
 from app.bridge.stop_confirmation import STOP_LIMIT
 from app.cli.common.keyboard import forget_typed, has_typed_line
-from app.cli.common.output import note, write
+from app.cli.common.output import note
+from app.cli.common.progress import end_line, is_watched, rewrite_line
 from app.common.signals import Interrupted, ignore_endings
 from app.emulator.emulated_robot import start_emulator
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
@@ -248,7 +248,7 @@ class Progress:
 
     def __init__(self, plan: RunPlan) -> None:
         self._estimates = move_estimates(plan.waypoints)
-        self._is_terminal = sys.stderr.isatty()
+        self._is_terminal = is_watched()
         self._told: tuple[RobotState, RunPhase, int] | None = None
         self._told_at = 0.0
 
@@ -264,14 +264,14 @@ class Progress:
         self._told, self._told_at = news, now
         text = f"{snapshot.robot}: {self._place(run)}"
         if self._is_terminal:
-            write(sys.stderr, f"\r\x1b[K{text}")
+            rewrite_line(text)
         else:
             note(text)
 
     def end(self) -> None:
         """Ends the line."""
         if self._is_terminal and self._told is not None:
-            write(sys.stderr, "\n")
+            end_line()
 
     def _place(self, run: RunProgress) -> str:
         left = float(self._estimates[run.reached :].sum())

@@ -17,18 +17,18 @@ with a `core.py` or an `app.py` of your own. The command goes the same way, also
 
 import builtins
 import importlib
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 _NAME = "footfall"
 _PACKAGES = frozenset({"app", "core", "robot_description", "solver_jobs"})
-_FOLDER = Path(__file__).resolve().parent
-_INSTALLED = _FOLDER / "footfall_studio"
-_HOME = str(_INSTALLED if _INSTALLED.is_dir() else _FOLDER)
+_FOLDER = os.path.dirname(os.path.realpath(__file__))
+_INSTALLED = os.path.join(_FOLDER, "footfall_studio")
+_HOME = _INSTALLED if os.path.isdir(_INSTALLED) else _FOLDER
 """Where the packages stand: in a folder of our own if installed, beside this file in a checkout."""
 __path__: list[str] = []
 """Makes them parts of this module, and nothing else that stands there."""

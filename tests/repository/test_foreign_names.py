@@ -88,25 +88,27 @@ def test_the_exit_status_of_a_module_that_is_run_is_that_of_the_command(tmp_path
     assert "nothing.csv" in done.stderr
 
 
-@pytest.fixture(params=["wheel_python", "editable_python"])
-def python(request: pytest.FixtureRequest) -> Path:
-    """The Python of an environment with the program."""
-    found: Path = request.getfixturevalue(request.param)
-    return found
+@pytest.fixture(params=["wheel", "editable"])
+def program(request: pytest.FixtureRequest) -> tuple[str, ...]:
+    """The script of an environment with the wheel; with an editable installation, what Python is told."""
+    python: Path = request.getfixturevalue(f"{request.param}_python")
+    return (
+        (str(python.with_name("footfall")),) if request.param == "wheel" else (str(python), "-m", "footfall")
+    )
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("by_module", [False, True], ids=["script", "module"])
 def test_every_command_runs_beside_them_where_the_program_is_installed(
-    python: Path, by_module: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    program: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     packages(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "home"))
     (tmp_path / "space.toml").write_text(SPACE)
-    program = (str(python), "-m", "footfall") if by_module else (str(python.with_name("footfall")),)
+    python = Path(program[0]).with_name("python")
+    for other in ((python, "-m", "footfall"), (python.with_name("footfall"),)):
+        assert run(*other, "--version", cwd=tmp_path, seconds=60) == f"footfall {VERSION}\n"
     for words in (
-        "--version",
         "gaits",
         "manual walk -o manual.csv",
         "optimise walk -o walk.csv",

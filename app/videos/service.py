@@ -26,7 +26,7 @@ FACTS_SECONDS = 600.0
 """Longest wait for a video's facts; of a damaged one every picture is looked at."""
 
 MOST_DELETED = 30 * 86_400.0
-"""A deleted video can be restored for so long, s."""
+"""A deleted video can be restored for so long, s of the folder's time (see `FolderTime`)."""
 
 
 class VideoService:
@@ -47,7 +47,7 @@ class VideoService:
         changed: Callable[[Json], None] = lambda view: None,
     ) -> None:
         self.files = VideoFiles(data)
-        self._store = VideoStore(database)
+        self._database, self._store = database, VideoStore(database)
         self._vision = vision
         self._changed = changed
         self._lock = threading.Lock()
@@ -160,7 +160,7 @@ class VideoService:
         for content in self._store.found(is_deleted=True):
             if (
                 content["state"] == "kept"
-                and time.time() - self._store.deleted_at(content["id"]) > MOST_DELETED
+                and self._database.folder_time.now - self._store.deleted_at(content["id"]) > MOST_DELETED
             ):
                 self.files.remove(content["file"])
                 self.change(content["id"], state="removed", sentence="It was deleted more than 30 days ago.")
@@ -202,7 +202,7 @@ class VideoService:
         """Takes a video out of the list; `restore` brings it back."""
         if self._known(video)["state"] == "recording":
             raise _still_recorded()
-        self._store.put_deleted(video, time.time())
+        self._store.put_deleted(video, self._database.folder_time.now)
         self._changed(self.view(video))
 
     def restore(self, video: str) -> Json:

@@ -3,6 +3,7 @@
 Only the command queue's thread calls this.
 """
 
+import itertools
 from typing import Any
 
 from app.common.clock import Span
@@ -36,10 +37,12 @@ class JobRepository:
     def __init__(self, database: Database) -> None:
         self._database, self._clock = database, database.clock
         self._spans: dict[str, Span] = {}
+        self._numbers = itertools.count(1)
         self._contents: dict[str, Json] = {}
         with left_undone("The list of jobs is empty"):
             self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
         for content in self._contents.values():
+            content["number"] = next(self._numbers)
             self._take_back(content)
 
     def begin(self, job_id: str, kind: str, gait_id: str, gait_name: str, motion: str, **more: Any) -> Json:
@@ -59,6 +62,7 @@ class JobRepository:
         span = self._clock.start()
         content = {
             "id": job_id,
+            "number": next(self._numbers),  # orders the jobs of one course of the studio
             "kind": kind,
             "gait": gait_id,
             "gait_name": gait_name,
@@ -101,7 +105,7 @@ class JobRepository:
         stored = self._database.job(job_id)
         if stored is None:
             raise NotFoundError(f"There is no job “{job_id}”.", job_id)
-        return self._take_back(stored)
+        return self._take_back(stored | {"number": 0})
 
     def contents(self) -> list[Json]:
         """The newest jobs, newest first."""

@@ -96,6 +96,21 @@ def test_a_job_of_a_studio_that_was_killed_ends_not_before_it_began(
     assert job["ended"] == max(created, clock.wall())
 
 
+@pytest.mark.parametrize("step", STEPS)
+def test_jobs_have_the_newest_first_also_after_the_studio_was_started_again(
+    step: float, database: Database, clock: SetClock
+) -> None:
+    first = JobRepository(database)
+    for key in "ab":
+        first.begin(key, "track", "walk", "Walk", "")
+        clock.step(step)
+    again = JobRepository(database)
+    again.begin("c", "track", "walk", "Walk", "")
+    jobs = again.contents()
+    assert [job["id"] for job in jobs] == ["c", "b", "a"]
+    assert jobs[0]["number"] > jobs[1]["number"] > jobs[2]["number"] > 0
+
+
 def put_run(database: Database, key: str, made: float) -> None:
     content = {"id": key, "started": made, "ended": made, "state": "done", "gait": "w", "gait_name": "W"}
     RunStore(database).begin({**content, "by": "Ada"}, None)

@@ -174,16 +174,23 @@ class VideoFile:
         """
         if not 0 <= number < self.facts.count:
             raise InputError(f"{self._name} ends before picture {number}.", "frame")
-        if not self._at <= number <= self._at + NEAR or self._at < 0:
+        if not 0 <= self._at <= number <= self._at + NEAR:
             self._seek(number)
-        while self._at < number and self._grab():
-            pass
+        if not self._goes_on_to(number):  # older OpenCVs end early behind a place that was sought
+            self._open_anew()
+            self._goes_on_to(number)
         frame = self._picture() if self._at == number else None
         if frame is None:
             raise InputError(
                 f"Picture {number} of {self._name} does not decode: the file is damaged there.", "frame"
             )
         return frame
+
+    def _goes_on_to(self, number: int) -> bool:
+        """Leaves pictures out up to one; whether that is there."""
+        while self._at < number and self._grab():
+            pass
+        return self._at == number
 
     def pictures(self) -> Iterator[tuple[float, Picture]]:
         """Every picture with its time after the first, s.

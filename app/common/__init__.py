@@ -1,1 +1,1 @@
-"""Small values for every folder of app: the version, the clocks, free names, JSON without infinities."""
+"""Small values that every folder of app may use: version, clocks, free names, JSON without infinities."""

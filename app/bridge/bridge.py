@@ -6,6 +6,7 @@ the worker, which feeds the session, keeps its deadlines and tells the subscribe
 
 import logging
 import threading
+import time
 from collections.abc import Callable
 from functools import partial
 
@@ -16,7 +17,6 @@ from app.bridge.states import IN_RUN, Direction, LinkState, RobotSnapshot, RunPl
 from app.bridge.stop_confirmation import STOP_LIMIT
 from app.bridge.transport import Transport
 from app.bridge.write_gate import Clock, Log, WriteGate
-from app.common.clock import boot_seconds
 from core.errors import RobotError, StateError
 from core.robot.model import RobotModel
 from core.running_time import Deadline, RunningClock
@@ -41,8 +41,8 @@ class RobotBridge:
 
     Args:
         log: told of all bytes both ways, with the time of `clock`; must return at once.
-        clock: seconds that only grow, also while the machine is suspended; for the record, and for the
-            deadlines as far as the program ran.
+        clock: seconds that only grow, for the record, and for the deadlines as far as the program ran. One
+            that goes on while the machine is suspended shows that time too.
         tick: longest time between two looks at the deadlines, s of real time.
         opener: opens a line.
     """
@@ -51,7 +51,7 @@ class RobotBridge:
         self,
         log: Log = lambda direction, data, when: None,
         *,
-        clock: Clock = boot_seconds,
+        clock: Clock = time.monotonic,
         tick: float = TICK,
         opener: Opener = Transport,
     ) -> None:

@@ -19,7 +19,7 @@ from app.bridge.messages import (
 from app.bridge.state_log import StateLog
 from app.bridge.states import IN_RUN, LinkState, RobotState
 from app.bridge.stop_procedure import StopProcedure
-from app.bridge.telemetry import TelemetryMonitor
+from app.bridge.telemetry import STALE_TIME, TelemetryMonitor
 from app.bridge.write_gate import Clock, WriteGate
 from core.errors import RobotError
 from core.wire.lines import Line, LineReader, SetupFinished, SetupMoving
@@ -105,10 +105,11 @@ class RobotLink(StateLog, ABC):
         return self._was_away
 
     def away(self, seconds: float, now: float) -> None:
-        """The program did not run for so long; what the robot said meanwhile comes next, or is lost."""
-        del seconds, now
-        self._was_away = True
-        self.monitor.forget_age()
+        """The program did not run for so long, s; what the robot said meanwhile comes next, or is lost."""
+        del now
+        if seconds > STALE_TIME:
+            self._was_away = True
+            self.monitor.forget_age()
 
     def stop(self, by: str, now: float, *, is_sent: bool = True) -> None:
         """Latches a stop whose bytes are already out, or which the line did not take.

@@ -89,7 +89,7 @@ class RobotStateMachine(RobotLink):
     def away(self, seconds: float, now: float) -> None:
         """The program did not run for so long, s: a run goes on after a short time only."""
         super().away(seconds, now)
-        if self._delivery is not None:
+        if self._delivery is not None and self.was_away:
             self._delivery.miss_lines()
         if not self.in_run:
             return

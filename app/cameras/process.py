@@ -12,6 +12,7 @@ from app.cameras.address import CameraAddress
 from app.cameras.worker import Finish, Finished, Record, Show, Shown, Standing, run_camera
 from app.vision.recorder import Recorded, RecordingJob
 from core.errors import RobotError, StateError
+from core.running_time import RunningClock
 from solver_jobs import WorkerEndedError, WorkerProcess
 
 _log = logging.getLogger(__name__)
@@ -49,7 +50,8 @@ class CameraProcess:
         self._numbers = itertools.count(1)
         self._lock = threading.Lock()
         self._waiting: dict[int, Future[Any]] = {}
-        self._looked = time.monotonic()
+        self._running = RunningClock(time.monotonic)
+        self._looked = 0.0
         self._closing = threading.Event()
         self._order: RecordingJob | None = None
         self._worker.ensure_started()
@@ -77,7 +79,7 @@ class CameraProcess:
         Raises:
             CameraError: the camera gives none.
         """
-        self._looked = time.monotonic()
+        self._looked = self._running()
         number, answer = self._ask()
         self._send(Show(number, most))
         try:
@@ -151,9 +153,10 @@ class CameraProcess:
             self._changed()
 
     def _is_idle(self) -> bool:
+        self._running.look()
         if self.is_kept or self.is_recording:
             return False
-        return time.monotonic() - self._looked > IDLE_SECONDS
+        return self._running() - self._looked > IDLE_SECONDS
 
     def _answer(self, message: Shown | Finished) -> None:
         with self._lock:

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Protocol
 
 from app.cameras.address import CameraAddress
+from app.common.clock import boot_seconds
 from app.vision.video_file import VideoFile
 from app.vision.video_io import Device, Picture
 from core.errors import InputError
@@ -16,7 +17,7 @@ class CameraSource(Protocol):
     rate: float | None
 
     def next(self) -> tuple[float, Picture] | None:
-        """Waits for the next picture; its time by the monotonic clock. None where the camera is gone."""
+        """Waits for the next picture; its time by `boot_seconds`. None where the camera is gone."""
 
     def skip(self) -> bool:
         """Waits as long as for a picture that nobody wants; false where the camera is gone."""
@@ -52,14 +53,14 @@ class PlayedFile:
         """Starts from the beginning."""
         self._file.close()
         self._file = VideoFile(self._path)
-        self._begun = time.monotonic()
+        self._begun = boot_seconds()
 
     def next(self) -> tuple[float, Picture] | None:
         """Waits for the next picture."""
-        while self._due(1) <= time.monotonic() and self._file.skip():
+        while self._due(1) <= boot_seconds() and self._file.skip():
             pass
         due = self._due(0)
-        time.sleep(max(0.0, due - time.monotonic()))
+        time.sleep(max(0.0, due - boot_seconds()))
         if not self._path.exists():
             return None
         picture = self._file.read()
@@ -69,7 +70,7 @@ class PlayedFile:
         return None if picture is None else (due, picture)
 
     def _due(self, later: int) -> float:
-        """When the next picture is due, or one so many later, by the monotonic clock, s."""
+        """When the next picture is due, or one so many later, by `boot_seconds`, s."""
         times, number = self._file.times, self._file.at + 1 + later
         after = max(number - (times.size - 1), 0) / self._file.facts.rate
         return self._begun + float(times[min(number, times.size - 1)]) + after
@@ -106,7 +107,7 @@ class LiveDevice:
     def next(self) -> tuple[float, Picture] | None:
         """Waits for the next picture."""
         picture = self._device.read()
-        return None if picture is None else (time.monotonic(), picture)
+        return None if picture is None else (boot_seconds(), picture)
 
     def skip(self) -> bool:
         """Leaves a picture out."""

@@ -4,12 +4,12 @@ It stands back behind the bridge (see `solver_jobs.NICENESS`), and leaves when i
 closes.
 """
 
-import time
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
 from app.cameras.address import CameraAddress
 from app.cameras.source import CameraSource, open_source
+from app.common.clock import boot_seconds
 from app.vision.recorder import Recorded, Recorder, RecordingJob
 from app.vision.video_io import Picture, jpeg, scaled, silence_libraries, use_one_thread
 from core.errors import InputError
@@ -139,7 +139,7 @@ class _Camera:
             self._source = None
             self._tell(Standing(False, f"The camera “{self._address.name}” is unplugged. Plug it in again."))
         if self._recorder is not None:
-            self._recorder.miss(time.monotonic())
+            self._recorder.miss(boot_seconds())
         self._finish()
         sentence = "" if self._told is None else self._told.sentence
         for show in self._asked:

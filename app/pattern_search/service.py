@@ -226,15 +226,14 @@ class PatternSearchService:
         self, tier: PatternTier, search: Search, question: PatternRequest, problem: PatternProblem
     ) -> tuple[PatternProblem, PatternResult]:
         """The answer of the first length that works, or of the last one for which there was time."""
-        deadline = time.monotonic() + question.seconds
-        lengths = helpful_lengths(question)
+        left, lengths = question.seconds, helpful_lengths(question)
         while True:
-            left = max(deadline - time.monotonic(), LEAST_SECONDS)
-            result = self._solved(tier, search, problem, question.count, left)
+            result = self._solved(tier, search, problem, question.count, max(left, LEAST_SECONDS))
+            left -= result.solve_seconds
             longer = next_length(problem, result, lengths)
             if longer is None:
                 return problem, none_up_to(problem, result, lengths)
-            if not search.is_ended and time.monotonic() > deadline:
+            if not search.is_ended and left <= 0.0:
                 return problem, none_up_to(problem, result, lengths, "; there was no time for longer ones")
             if search.is_ended:
                 # This length has no pattern, but longer ones were asked for as well.

@@ -1,12 +1,12 @@
 """The bridge with a record of every run, from before its first byte to its end."""
 
 import threading
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
+from app.common.clock import boot_seconds
 from app.common.json import Json
 from app.gaits.verdict_views import override_view
 from app.robot.run_recorder import RunRecorder
@@ -55,7 +55,7 @@ class RecordedBridge:
         self._span = self._clock.start()
         self._sending = threading.Lock()
         self._recording = threading.Lock()
-        self.bridge = RobotBridge(self._recorder.log)
+        self.bridge = RobotBridge(self._recorder.log, clock=boot_seconds)
         self.bridge.subscribe(self._follow)
 
     @property
@@ -94,7 +94,7 @@ class RecordedBridge:
             "from": run_range.first,
             "iterations": run_range.iterations,
             "started": self._span.started,
-            "started_monotonic": time.monotonic(),
+            "started_monotonic": boot_seconds(),
             "ended": None,
             "state": "running",
             "sentence": "",

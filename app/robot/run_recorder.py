@@ -8,12 +8,14 @@ import time
 from collections.abc import Callable, Iterable
 
 from app.bridge.states import Direction, Transition
+from app.common.clock import boot_seconds
 from app.common.json import Json
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
 from app.store.run_store import RunStore
 from app.store.run_writer import RunWriter
 from core.errors import StateError, StorageError
+from core.running_time import Deadline
 
 logger = logging.getLogger(__name__)
 
@@ -137,7 +139,7 @@ class RunRecorder:
     def end(self, content: Json) -> None:
         """Completes the record of a run, after every byte that was logged before."""
         whole = {**content, "left_out": self._left_out} if self._left_out else content
-        self._put(Entry(EntryKind.END, time.monotonic(), json.dumps(whole, allow_nan=False).encode()))
+        self._put(Entry(EntryKind.END, boot_seconds(), json.dumps(whole, allow_nan=False).encode()))
 
     def close(self) -> None:
         """Writes what is left and ends."""
@@ -164,15 +166,15 @@ class RunRecorder:
         self._wake.set()
 
     def _work(self) -> None:
-        give_up = float("inf")
+        give_up: Deadline | None = None
         while True:
             self._wake.wait()
             self._wake.clear()
             is_closing = self._closing.wait(GATHER_SECONDS)
             is_written = self._write()
             if is_closing:
-                give_up = min(give_up, time.monotonic() + CLOSE_SECONDS)
-                if is_written or time.monotonic() > give_up:
+                give_up = give_up or Deadline(CLOSE_SECONDS, time.monotonic, most=2 * RETRY_SECONDS)
+                if is_written or give_up.is_over:
                     break
             if not is_written:
                 time.sleep(RETRY_SECONDS)

@@ -1,8 +1,7 @@
 """Wall times of the bridge's changes of state, noted when each is first seen."""
 
 import threading
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from app.bridge.states import Transition
 from app.common.clock import Clock
@@ -12,12 +11,11 @@ class TransitionTimes:
     """When changes of state happened by the wall clock as it was then; later steps of it move none of them.
 
     Args:
-        clock: the clocks of the machine.
-        monotonic: the clock of the bridge, s.
+        clock: the clocks of the machine; `boot` is that of the bridge.
     """
 
-    def __init__(self, clock: Clock, monotonic: Callable[[], float] = time.monotonic) -> None:
-        self._clock, self._monotonic = clock, monotonic
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
         self._lock = threading.Lock()
         self._noted: dict[int, float] = {}
 
@@ -28,6 +26,6 @@ class TransitionTimes:
             changes: all that the bridge still has, the oldest first.
         """
         with self._lock:
-            offset = self._clock.wall() - self._monotonic()
+            offset = self._clock.wall() - self._clock.boot()
             self._noted = {one.number: self._noted.get(one.number, one.time + offset) for one in changes}
             return list(self._noted.values())

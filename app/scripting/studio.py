@@ -22,6 +22,7 @@ from app.scripting.plans import Plan
 from app.store.folder_lock import studio_address
 from app.store.gait_files import default_data_folder
 from core.errors import InputError, StateError
+from core.running_time import Deadline
 
 ANSWER_SECONDS, START_SECONDS, LOOK_SECONDS = 30.0, 60.0, 0.1
 
@@ -116,8 +117,8 @@ def _started(folder: Path) -> str:
     words = own_command("serve", "--no-browser", "--port", "0", "--data", str(folder))
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=said, process_group=0)
-        deadline = time.monotonic() + START_SECONDS
-        while process.poll() is None and time.monotonic() < deadline:
+        deadline = Deadline(START_SECONDS, time.monotonic)
+        while process.poll() is None and not deadline.is_over:
             address = studio_address(folder) if folder.exists() else None
             if address is not None:
                 _ours.append(process)

@@ -28,6 +28,7 @@ from app.videos.service import VideoService
 from app.vision.recorder import Recorded, RecordingJob
 from app.vision.tracking import missing_remarks
 from core.errors import FootfallError, StateError
+from core.running_time import Deadline
 from core.vision.setup import CameraSetup
 
 _log = logging.getLogger(__name__)
@@ -254,8 +255,8 @@ class RunRecordings:
         Raises:
             StateError: it does not become so.
         """
-        deadline = time.monotonic() + KEPT_SECONDS
+        deadline = Deadline(KEPT_SECONDS, time.monotonic)
         while (row := self._store.get(run)) is None or row.content["ended"] is None:
-            if time.monotonic() > deadline:
+            if deadline.is_over:
                 raise StateError("The record of the run is not whole yet. Track the recording later.", "run")
             time.sleep(LOOK_SECONDS)

@@ -11,6 +11,7 @@ from ortools.sat.python.cp_model import CpModel, CpSolver, CpSolverSolutionCallb
 
 from core.patterns.check import weighted_sum
 from core.patterns.problem import Pattern, PatternProblem, PatternProgress
+from core.running_time import RunningClock
 
 TICK_SECONDS = 0.05
 """A listener is told no more often."""
@@ -35,7 +36,7 @@ class SearchMonitor:
         self.best: Pattern | None = None
         self._problem = problem
         self._progress = progress
-        self._begin = time.perf_counter()
+        self._running = RunningClock(time.monotonic)
         self._seconds = seconds
         self._solver: CpSolver | None = None
         self._stopped = False
@@ -54,8 +55,8 @@ class SearchMonitor:
 
     @property
     def elapsed(self) -> float:
-        """Since the start, s."""
-        return time.perf_counter() - self._begin
+        """Since the start, as far as the program ran, s."""
+        return self._running()
 
     @property
     def is_over(self) -> bool:
@@ -88,7 +89,6 @@ class SearchMonitor:
         solver.parameters.random_seed = SEED
         solver.parameters.catch_sigint_signal = False
         solver.parameters.linearization_level = linear
-        solver.parameters.max_time_in_seconds = max(self._seconds - self.elapsed, 0.001)
         solver.best_bound_callback = bounded
         self._solver = solver
         status = solver.solve(model, callback)
@@ -97,11 +97,12 @@ class SearchMonitor:
 
     def _tell(self) -> None:
         while not self._ended.wait(TICK_SECONDS):
+            self._running.look()
             best = self.best
             objective = None if best is None else float(weighted_sum(self._problem, best))
             bound = self.bound if objective is None else min(self.bound, objective)
             if not self._progress(PatternProgress(self.elapsed, objective, bound, best)):
                 self._stopped = True
             solver = self._solver
-            if self._stopped and solver is not None:
+            if self.is_over and solver is not None:
                 solver.stop_search()

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
+from core.running_time import RunningClock
 from solver_jobs.nlp.timing import TimingResult
 from solver_jobs.results.motion import Iterate, MotionResult
 from solver_jobs.workers.job import STATE_OF_STATUS, Job, JobState, result_sentence
@@ -47,7 +48,7 @@ class _RunningJob:
     """State of the job that the thread runs."""
 
     job: str
-    deadline: float
+    clock: RunningClock = field(default_factory=lambda: RunningClock(time.monotonic))
     iterates: list[Iterate] = field(default_factory=list)
     heard: bool = False
     published: float = 0.0
@@ -99,7 +100,7 @@ class JobThread:
             _log.exception("The solver's process does not start")
 
     def _attend(self, job: Job) -> None:
-        running = _RunningJob(job.id, time.monotonic() + self._time_limit)
+        running = _RunningJob(job.id)
         try:
             try:
                 self._serve(job, running)
@@ -138,7 +139,8 @@ class JobThread:
             _log.error("Job %s: %s", running.job, message.details)
             self._end(running, JobState.FAILED, f"The solver broke off ({message.error}); this is a bug.")
             return True
-        now = time.monotonic()
+        running.clock.look()
+        now = running.clock()
         if now - running.published >= PUBLISH_SECONDS:
             self._publish(running, now)
         return self._stop_where_due(running, now)
@@ -150,7 +152,7 @@ class JobThread:
 
     def _stop_where_due(self, running: _RunningJob, now: float) -> bool:
         if running.stop_sent is None:
-            running.timed_out = now > running.deadline
+            running.timed_out = now > self._time_limit
             if running.timed_out or self._source.job(running.job).state is JobState.CANCELLING:
                 running.stop_sent = now
                 self.worker.send(Stop(running.job))

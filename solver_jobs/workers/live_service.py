@@ -15,6 +15,7 @@ from typing import Any
 from core.gait.gait import Gait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
+from core.running_time import Deadline
 from solver_jobs.remedies.limit import Limit
 from solver_jobs.remedies.remedy import Remedy, RemedySearch
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
@@ -122,7 +123,7 @@ class LiveSolver:
             go_on: false ends the search with what was found.
             timeout: then the search is ended with what was found, s.
         """
-        begun = time.monotonic()
+        limit = Deadline(timeout, time.monotonic)
 
         def question(number: int) -> FindRemedies:
             self._told[number] = tell
@@ -132,7 +133,7 @@ class LiveSolver:
             found: RemedySearch = self._ask(
                 question,
                 timeout + END_SECONDS,
-                lambda: go_on() and time.monotonic() - begun < timeout,
+                lambda: go_on() and not limit.is_over,
             )
         except (FutureTimeout, CancelledError, OSError, LiveSolverError) as error:
             _log.warning("The live solver found no remedies: %r", error)
@@ -150,12 +151,12 @@ class LiveSolver:
         Returns:
             The value, m or rad; None where none works, or no answer came.
         """
-        begun = time.monotonic()
+        limit = Deadline(timeout, time.monotonic)
         try:
             found: float | None = self._ask(
                 lambda number: FindLimit(number, gait, which),
                 timeout + END_SECONDS,
-                lambda: time.monotonic() - begun < timeout,
+                lambda: not limit.is_over,
             )
         except (FutureTimeout, CancelledError, OSError, LiveSolverError) as error:
             _log.warning("The live solver found no limit: %r", error)
@@ -191,16 +192,15 @@ class LiveSolver:
                 pipe = self._ensure_started()
                 self._waiting[number] = future
                 self._send(pipe, message(number))
-            deadline = time.monotonic() + timeout
-            while go_on is not None and time.monotonic() < deadline:
-                if not go_on():
-                    deadline = time.monotonic() + END_SECONDS
+            deadline = Deadline(timeout, time.monotonic)
+            while not deadline.is_over:
+                if go_on is not None and not go_on():
+                    deadline, go_on = Deadline(END_SECONDS, time.monotonic), None
                     with self._lock:
                         self._send(pipe, EndSearch(number))
-                    break
                 with suppress(FutureTimeout):
-                    return future.result(POLL_SECONDS)
-            return future.result(max(deadline - time.monotonic(), 0.0))
+                    return future.result(min(POLL_SECONDS, timeout))
+            raise FutureTimeout
         except FutureTimeout:
             with self._lock:
                 if not self._closed:

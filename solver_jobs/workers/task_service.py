@@ -16,6 +16,7 @@ from multiprocessing.connection import Connection
 from typing import Any, ClassVar, Generic, TypeVar
 
 from core.errors import FootfallError, StateError
+from core.running_time import RunningClock
 from solver_jobs.workers.spawning import NICENESS
 from solver_jobs.workers.task_worker import Cancel, Progress, Submit, TaskResult
 from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess
@@ -127,6 +128,7 @@ class TaskService(Generic[TaskT]):
         self._name = name
         self._worker = WorkerProcess(warm_up, body, f"footfall {name}", niceness)
         self._numbers = itertools.count(1)
+        self._running = RunningClock(time.monotonic)
         self._waiting: queue.SimpleQueue[TaskT | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
@@ -179,7 +181,8 @@ class TaskService(Generic[TaskT]):
             _log.exception("The %s's process does not start", self._name)
 
     def _attend(self, question: TaskT) -> None:
-        begun = time.monotonic()
+        self._running.look()
+        begun = self._running()
         try:
             try:
                 result = self._serve(question, begun)
@@ -210,12 +213,13 @@ class TaskService(Generic[TaskT]):
         if question.is_ending:
             return question.unanswered(0.0)
         self._worker.ensure_started()
-        number, heard, halted = next(self._numbers), time.monotonic(), False
+        number, heard, halted = next(self._numbers), self._running(), False
         self._worker.send(Submit(number, question.task))
         latest = question.latest(begun, heard)
         while not self._closed:
             message = self._worker.receive(POLL_SECONDS)
-            now = time.monotonic()
+            self._running.look()
+            now = self._running()
             if isinstance(message, TaskResult) and message.number == number:
                 return self._result(message)
             if isinstance(message, Progress) and message.number == number:

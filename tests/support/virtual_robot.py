@@ -46,7 +46,8 @@ class VirtualRobot(VirtualLink):
         self.unseen += passed - LATE
         self.machine.away(passed, self.now)
         self.machine.received(bytes(waiting[:kept]), self.now)
-        self.machine.listen_anew(self.now)
+        if self.machine.was_away:
+            self.machine.listen_anew(self.now)
         self.machine.tick(self.now)
 
     @property

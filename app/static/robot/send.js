@@ -4,10 +4,13 @@
  */
 
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { runningTimer } from "../lib/running_timer.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const HOLD_MS = 1000;
 const COUNTDOWN_S = 3;
+
+const SLEPT = "Nothing was sent, because the page did not run for a while. Press Send to robot again.";
 
 const isInReach = (element) => element.checkVisibility() && !element.closest("[inert]");
 
@@ -26,41 +29,44 @@ function countdownPart(button, prepare, start) {
     words,
     cancelButton,
   );
-  let timer = null;
+  let endTimer = null;
 
   function end() {
-    clearInterval(timer);
-    timer = null;
+    endTimer();
+    endTimer = null;
     [element.hidden, button.hidden] = [true, false];
   }
 
   function cancel() {
-    if (timer === null) return false;
+    if (endTimer === null) return false;
     end();
     announce("Sending is cancelled.");
     return true;
   }
 
   async function count() {
-    if (timer !== null || !(await prepare())) return;
-    const begun = performance.now();
+    if (endTimer !== null || !(await prepare())) return;
     [element.hidden, button.hidden] = [false, true];
     setText(number, String(COUNTDOWN_S));
     cancelButton.focus({ preventScroll: true });
     element.scrollIntoView({ block: "nearest" });
     announce(`The studio sends the gait to the robot in ${COUNTDOWN_S} seconds.`);
-    timer = setInterval(() => {
-      // Where Cancel cannot be seen or pressed any more, nothing is sent.
-      if (!isInReach(element)) {
-        cancel();
-        return;
-      }
-      const left = COUNTDOWN_S - (performance.now() - begun) / 1000;
-      if (left <= 0) {
+    endTimer = runningTimer(COUNTDOWN_S * 1000, {
+      tell: (left) => {
+        // Where Cancel cannot be seen or pressed any more, nothing is sent.
+        if (isInReach(element)) setText(number, String(Math.ceil(left / 1000)));
+        else cancel();
+      },
+      act: () => {
+        const canBeSeen = isInReach(element);
         end();
-        start();
-      } else setText(number, String(Math.ceil(left)));
-    }, 100);
+        if (canBeSeen) start();
+      },
+      slept: () => {
+        end();
+        toast(SLEPT);
+      },
+    });
   }
 
   cancelButton.addEventListener("click", cancel);
@@ -74,22 +80,29 @@ function countdownPart(button, prepare, start) {
  * @returns {() => void} lets the button go, if it is held
  */
 function holding(button, { isBlocked, act, press }) {
-  let timer = null;
+  let endTimer = null;
   let held = false;
 
   function letGo() {
-    clearTimeout(timer);
-    timer = null;
+    endTimer?.();
+    endTimer = null;
     delete button.dataset.holding;
   }
 
   function hold(isPointer) {
     button.dataset.holding = "";
-    timer = setTimeout(() => {
-      held = isPointer;
-      letGo();
-      act();
-    }, HOLD_MS);
+    endTimer = runningTimer(HOLD_MS, {
+      act: () => {
+        held = isPointer;
+        letGo();
+        act();
+      },
+      slept: () => {
+        held = isPointer;
+        letGo();
+        toast(SLEPT);
+      },
+    });
   }
 
   button.addEventListener("pointerdown", (event) => {
@@ -103,10 +116,10 @@ function holding(button, { isBlocked, act, press }) {
   button.addEventListener("keydown", (event) => {
     if (event.key !== "Enter" || isBlocked()) return;
     event.preventDefault();
-    if (!event.repeat && timer === null) hold(false);
+    if (!event.repeat && endTimer === null) hold(false);
   });
   button.addEventListener("keyup", (event) => {
-    if (event.key !== "Enter" || timer === null) return;
+    if (event.key !== "Enter" || endTimer === null) return;
     letGo();
     press();
   });

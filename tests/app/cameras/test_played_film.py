@@ -14,12 +14,12 @@ from tests.support.trials.retimed import retimed
 
 
 class PassedTime:
-    """The monotonic clock; waiting for it takes no time."""
+    """The clock of the cameras; waiting for it takes no time."""
 
     def __init__(self) -> None:
         self.now = 50.0
 
-    def monotonic(self) -> float:
+    def boot_seconds(self) -> float:
         return self.now
 
     def sleep(self, seconds: float) -> None:
@@ -30,6 +30,7 @@ class PassedTime:
 def time(monkeypatch: pytest.MonkeyPatch) -> PassedTime:
     passed = PassedTime()
     monkeypatch.setattr(source, "time", passed)
+    monkeypatch.setattr(source, "boot_seconds", passed.boot_seconds)
     return passed
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import time
 from pathlib import Path
 
 import pytest
@@ -12,6 +11,7 @@ import pytest
 from app.bench.page.film import Film, draw_film, stepping_feet
 from app.cameras.address import CameraAddress
 from app.cameras.process import CameraError, CameraProcess
+from app.common.clock import boot_seconds
 from app.vision.frame_source import PICTURES
 from app.vision.recorder import RecordingJob
 from app.vision.recording_file import Recording, read_table
@@ -30,7 +30,7 @@ def link_of(film: Film) -> CameraProcess:
 
 
 def order(film: Film, folder: Path) -> RecordingJob:
-    return RecordingJob(folder, time.monotonic(), film.setup.tracking(), "Under")
+    return RecordingJob(folder, boot_seconds(), film.setup.tracking(), "Under")
 
 
 def count(folder: Path) -> int:

@@ -231,7 +231,7 @@ def test_the_newest_backups_are_kept_though_older_ones_are_from_2099(database: D
 
 @pytest.mark.parametrize("step", STEPS)
 def test_the_robots_log_keeps_the_times_that_it_had(step: float, clock: SetClock) -> None:
-    times = TransitionTimes(clock, clock.boot)
+    times = TransitionTimes(clock)
     changes = [Transition(clock.boot(), LinkState.READY, RobotState.DISARMED, "It is up.", 1)]
     (first,) = times.of(changes)
     clock.pass_seconds(5.0)

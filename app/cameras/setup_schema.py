@@ -1,12 +1,12 @@
 """The JSON document of a camera's setup: pixels as they are, places in cm, colours as shares."""
 
-import json
 from typing import Annotated
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from core.errors import InputError
+from core.text.documents import json_content
 from core.vision.camera import FOOT_COLOURS, BlobLimits, ColourRange, Lens
 from core.vision.setup import FEET, SPOTS, CameraSetup
 
@@ -114,9 +114,7 @@ def parse_setup(text: str, name: str) -> SetupDocument:
         InputError: naming the first field that is wrong.
     """
     try:
-        return SetupDocument.model_validate(json.loads(text))
-    except json.JSONDecodeError as error:
-        raise InputError(f"{name} is no JSON: {error.msg} in line {error.lineno}.", name) from None
+        return SetupDocument.model_validate(json_content(text, name))
     except ValidationError as error:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"]) or name

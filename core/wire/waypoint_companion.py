@@ -15,6 +15,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.model import RobotModel
+from core.text.documents import NotJsonError, json_content
 from core.wire.waypoints import Waypoints
 
 FORMAT = "footfall-waypoints"
@@ -74,9 +75,9 @@ def parse_waypoint_companion(text: str, csv_text: str, name: str) -> WaypointCom
         InputError: it is bound to this file, and damaged.
     """
     try:
-        content = json.loads(text)
+        content = json_content(text, f"The companion of {name}")
         is_known = content.get("format") == FORMAT and content.get("version") == 1
-    except (RecursionError, ValueError, AttributeError):
+    except (NotJsonError, AttributeError):
         return f"The companion of {name} is no JSON object, so it is left aside."
     if not is_known:
         return f"The companion of {name} is of an unknown format, so it is left aside."

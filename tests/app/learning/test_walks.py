@@ -103,8 +103,8 @@ def test_a_row_and_its_trajectory_make_a_gait_in_the_wanted_direction() -> None:
         ("a,b\n1,2\n", "no column Traj"),
         (TABLE + "Other,1,1,1,1,1,1,1,1,1\n", "none of TrajAa to TrajDd"),
         (TABLE + ROW.replace("Aa", "Bb"), r"needs the trajectory ambl_b\.csv"),
-        (TABLE + ROW.replace("3.7", "far"), "“far” for dist"),
-        (TABLE + ROW.replace("3.5", "inf"), "“inf” for dx"),
+        (TABLE + ROW.replace("3.7", "far"), "table:2, column 8: “far” is not a number"),
+        (TABLE + ROW.replace("3.5", "inf"), "table:2, column 4: inf is not a finite"),
     ],
 )
 def test_a_table_that_cannot_be_used_is_refused_with_a_sentence(table: str, words: str) -> None:

@@ -13,6 +13,7 @@ from core.text.numbers import MOST_DIGITS, number_fault, plain_number, shortened
 _SUSPECT = re.compile(r"NaN|Infinity|[eE]\+?[0-9]{3}|[0-9]{300}")
 """What every JSON text has whose numbers are not all finite doubles."""
 _JSON_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|([-+.\w]+)', re.DOTALL)
+_LINE = re.compile(r"line ([0-9]+)")
 _KEY = re.compile(r'"((?:[^"\\]|\\.)*)"\s*:|(?m:^)[ \t]*([\w.-]+)[ \t]*=')
 _TOML_WORD = re.compile(
     r'"""(?:[^\\]|\\.)*?"""|\'\'\'.*?\'\'\'|"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'|#[^\n]*'
@@ -50,8 +51,11 @@ def json_content(source: str | bytes, name: str) -> Any:
         return json.loads(text)
     except RecursionError as error:
         raise NotJsonError(f"{name} is not JSON: it is nested too deeply.", name) from error
-    except ValueError as error:
-        raise NotJsonError(f"{name} is not JSON: {error}.", name) from error
+    except json.JSONDecodeError as error:
+        slip = _slip(text, error.lineno)
+        if not text[: error.pos].strip() and text.strip():
+            slip = f" It begins “{shortened(text.strip())}”."
+        raise NotJsonError(f"{name} is not JSON: {error}.{slip}", name) from error
 
 
 def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
@@ -65,10 +69,15 @@ def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
         InputError: it is no text in UTF-8 or no TOML, or a number in it is no plain decimal.
     """
     text = without_mark(text_of(source, name) if isinstance(source, bytes) else source)
+    if "\n" not in text:
+        text = text.replace("\r", "\n")
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{name} is no TOML file: {error}.", name) from error
+        line = _LINE.search(str(error))
+        slip = "" if line is None else _slip(text, int(line[1]))
+        hint = " It seems to be JSON." if text.lstrip().startswith("{") else slip
+        raise InputError(f"{name} is no TOML file: {error}.{hint}", name) from error
     except RecursionError as error:
         raise InputError(f"{name} is no TOML file: it is nested too deeply.", name) from error
     except ValueError as error:
@@ -88,6 +97,14 @@ def _toml_numbers(text: str) -> Iterator[re.Match[str]]:
 
 def _is_json_number(word: str | None) -> bool:
     return word is not None and (word.lstrip("-") in ("NaN", "Infinity") or word.lstrip("-")[:1].isdigit())
+
+
+def _slip(text: str, line: int) -> str:
+    """What may have spoilt a line that cannot be read; empty where it has nothing of the kind."""
+    found = text.split("\n")[line - 1]
+    if re.search(r"[0-9]_[0-9]", found):
+        return " Write numbers without _."
+    return " Write decimal points, not commas." if re.search(r"[0-9],[0-9]", found) else ""
 
 
 def _require_plain(words: Iterator[re.Match[str]], name: str, text: str) -> None:

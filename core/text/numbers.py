@@ -69,11 +69,13 @@ def _hint(text: str) -> str:
         return "; write the minus sign as -"
     if foreign is not None:
         name = unicodedata.name(foreign, f"U+{ord(foreign):04X}").lower()
-        return f"; take out the character {name}, numbers have only 0 to 9, sign, point and exponent"
+        return f"; it has the character {name}, write only 0 to 9, sign, point and exponent"
     if "_" in text and _PLAIN.fullmatch(text.replace("_", "")):
         return "; write it without _"
-    if _PLAIN.fullmatch(text.replace(",", ".", 1)):
-        return "; write the decimal point as ."
+    if "," in text and _PLAIN.fullmatch(text.replace(",", ".", 1)):
+        return "; write a decimal point, not a comma"
+    if text.lstrip("+-")[:2].lower() in ("0x", "0o", "0b"):
+        return "; write it in decimal digits"
     if "'" in text and _PLAIN.fullmatch(text.replace("'", "")):
         return "; write it without '"
     return ""

@@ -16,12 +16,14 @@ import numpy as np
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.text.decoding import without_mark
-from core.text.numbers import number_fault, plain_number, reads_plainly
+from core.text.decoding import MARK, without_mark
+from core.text.numbers import number_fault, plain_number, reads_plainly, shortened
 
 _SEP_LINE = re.compile(r'"?sep=([,;\t| ])"?[ \t]*')
 """A first line by which Excel is told what stands between the cells."""
 _SIGN_NAMES = {";": ";", "\t": "tabs", " ": "blanks", ",": ",", "|": "|"}
+_BEHIND_COMMA = re.compile(r"[0-9]+(?:[eE][+-]?[0-9]+)?")
+_WAY_OUT = "Write decimal points, or ; between the numbers"
 _COUNTED = "The first column counts the rows and was left out."
 _OTHERS = "other numbers have a decimal comma; use one of them"
 _SEPARATE = " Separate the numbers by commas, and write decimal points."
@@ -74,11 +76,11 @@ class Table:
         values = []
         for index, row in enumerate(rows, first):
             if width is not None and len(row) != width and any(map(str.strip, row)):
-                raise self._other_width(index, len(row), f"a row has {width}")
+                raise self._other_width(index, len(row), wanted, f"a row has {width}")
             numbers = _floats(row, has_gaps=has_gaps) if is_simple else None
             values.append(self._read(row, index, has_gaps=has_gaps) if numbers is None else numbers)
             if len(row) != wanted:
-                raise self._other_width(index, len(row), f"the lines before have {wanted}")
+                raise self._other_width(index, len(row), wanted, f"the lines before have {wanted}")
         table = np.array(values, dtype=np.float64).reshape(len(rows), wanted)
         for row, column in np.argwhere(np.isinf(table))[:1].tolist():
             raise self.refusal(first + row, column, number_fault(rows[row][column]))
@@ -95,13 +97,28 @@ class Table:
         cell, place = self.rows[row][column], f"{self.name}:{self.lines[row]}"
         if not any(map(str.strip, self.rows[row])):
             fault += "; the row is empty, delete it"
+        elif row > 0 and len(self.rows[row]) > 1 and all(one.strip()[:1].isalpha() for one in self.rows[row]):
+            fault += "; only the first line may hold words"
         help_ = _SEPARATE if set(cell.strip()) & set("; \t") else ""
         return InputError(f"{place}, column {column + 1 + self.columns_left_out}: {fault}.{help_}", place)
 
-    def _other_width(self, row: int, width: int, rule: str) -> InputError:
+    def header_refusal(self, wanted: str) -> InputError:
+        """What the first row is refused with.
+
+        Args:
+            wanted: what it must read.
+        """
+        line = self.lines[0] if self.rows else 1
+        found = f"it reads “{shortened(', '.join(self.head))}”" if self.head else "it is empty"
+        return InputError(
+            f"{self.name}, line {line}: the header must read {wanted}; {found}.", f"{self.name}:{line}"
+        )
+
+    def _other_width(self, row: int, width: int, wanted: int, rule: str) -> InputError:
         line = self.lines[row]
         numbers = "1 number" if width == 1 else f"{width} numbers"
-        return InputError(f"{self.name}, line {line}: {numbers}; {rule}.", f"{self.name}:{line}")
+        hint = f" {_WAY_OUT}, if there are decimal commas." if width == 2 * wanted else ""
+        return InputError(f"{self.name}, line {line}: {numbers}; {rule}.{hint}", f"{self.name}:{line}")
 
     def _read(self, row: list[str], index: int, *, has_gaps: bool) -> list[float]:
         return [self.number(index, column, has_gaps=has_gaps) for column in range(len(row))]
@@ -145,12 +162,15 @@ def read_table(text: str, name: str, *, has_empty_rows: bool = False) -> Table:
         has_empty_rows: whether a row of empty cells at the end says something.
 
     Raises:
-        InputError: quotes or line ends in it are damaged.
+        InputError: quotes or line ends in it are damaged, it is JSON, or commas stand both between numbers
+            and in them.
     """
+    if text.lstrip(f"{MARK} \t\r\n").startswith("{"):
+        raise InputError(f"{name} holds JSON; a table of numbers is wanted here.", name)
     notes: list[str] = []
     text = _with_one_line_end(without_mark(text), name, notes)
     lines = text.split("\n")
-    while lines and not lines[-1].strip():
+    while lines and not lines[-1].strip(" "):
         lines.pop()
     told = _SEP_LINE.fullmatch(lines[0]) if lines else None
     begin = 0 if told is None else 1
@@ -159,6 +179,8 @@ def read_table(text: str, name: str, *, has_empty_rows: bool = False) -> Table:
     rows, numbers = _cells(lines, sign, begin + 1, name)
     if not has_empty_rows:
         _drop_empty(rows, notes)
+    if sign == ",":
+        _require_points(rows, numbers, name)
     has_decimal_comma = sign != "," and any("," in cell for row in rows[1:] or rows for cell in row)
     if sign != "," or told is not None:
         comma = " and a decimal comma" if has_decimal_comma else ""
@@ -246,7 +268,23 @@ def _drop_empty(rows: list[list[str]], notes: list[str]) -> None:
         rows.pop()
     if count > len(rows):
         empty = count - len(rows)
-        notes.append(f"{empty} empty {'row' if empty == 1 else 'rows'} at the end left out.")
+        notes.append(f"{empty} empty {'row' if empty == 1 else 'rows'} at the end were left out.")
+
+
+def _require_points(rows: list[list[str]], lines: Sequence[int], name: str) -> None:
+    """Raises InputError where each number seems to be two: what is before and behind a decimal comma."""
+    body = rows[1:] or rows
+    if not body or any("." in cell for cell in body[0]):
+        return
+    behind = [cell for row in body for cell in row[1::2]]
+    is_doubled = all(len(row) % 2 == 0 for row in body) and all(map(_BEHIND_COMMA.fullmatch, behind))
+    if is_doubled and any(cell[0] == "0" and cell[1:2].isdigit() for cell in behind):
+        line = lines[-len(body)]
+        raise InputError(
+            f"{name}, line {line}: commas stand between the numbers and, it seems, for decimal points: "
+            f"“{shortened(','.join(body[0]))}”. {_WAY_OUT}.",
+            f"{name}:{line}",
+        )
 
 
 def _without_empty_columns(rows: list[list[str]], width: int | None) -> list[list[str]]:

@@ -104,11 +104,7 @@ def _feet_of_header(table: Table) -> int:
     feet = len(table.head) // 2
     wanted = [f"{axis}_D{foot}" for foot in range(1, feet + 1) for axis in "XY"]
     if not feet or table.head != wanted:
-        line = table.lines[0] if table.rows else 1
-        raise InputError(
-            f"{table.name}, line {line}: the header must read X_D1, Y_D1, X_D2, Y_D2, …",
-            f"{table.name}:{line}",
-        )
+        raise table.header_refusal("X_D1, Y_D1, X_D2, Y_D2, …")
     return feet
 
 

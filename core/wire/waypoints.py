@@ -121,12 +121,7 @@ def _legs_of_header(table: Table, legs: int | None) -> int:
     head = table.head
     found = (len(head) - 1) // 3
     if found < 1 or found != (legs or found) or head != _header(found).split(","):
-        line = table.lines[0] if table.rows else 1
-        raise InputError(
-            f"{table.name}, line {line}: the header must read {_header(legs or 4)}"
-            + ("." if legs else ", with three motors a foot."),
-            f"{table.name}:{line}",
-        )
+        raise table.header_refusal(_header(legs or 4) + ("" if legs else ", with three motors a foot"))
     return found
 
 

@@ -73,12 +73,12 @@ class Table:
         rows = _without_empty_columns(self.rows[first:], width)
         wanted = width or (len(rows[0]) if rows else 0)
         is_simple = first >= self.simple_from
-        values = []
+        values: list[float] = []
         for index, row in enumerate(rows, first):
             if width is not None and len(row) != width and any(map(str.strip, row)):
                 raise self._other_width(index, len(row), wanted, f"a row has {width}")
             numbers = _floats(row, has_gaps=has_gaps) if is_simple else None
-            values.append(self._read(row, index, has_gaps=has_gaps) if numbers is None else numbers)
+            values += self._read(row, index, has_gaps=has_gaps) if numbers is None else numbers
             if len(row) != wanted:
                 raise self._other_width(index, len(row), wanted, f"the lines before have {wanted}")
         table = np.array(values, dtype=np.float64).reshape(len(rows), wanted)
@@ -202,7 +202,9 @@ def _simple_from(text: str) -> int:
 def _floats(row: list[str], *, has_gaps: bool) -> list[float] | None:
     """The numbers of a row, None where a cell is no number."""
     try:
-        return [float(cell) if cell else math.nan for cell in row] if has_gaps else list(map(float, row))
+        if has_gaps and "" in row:
+            return [float(cell) if cell else math.nan for cell in row]
+        return list(map(float, row))
     except ValueError:
         return None
 

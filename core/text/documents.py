@@ -6,6 +6,9 @@ import tomllib
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
+from core.arrays import Floats
 from core.errors import InputError
 from core.text.decoding import place_in, text_of, without_mark
 from core.text.numbers import MOST_DIGITS, number_fault, plain_number, shortened
@@ -56,6 +59,18 @@ def json_content(source: str | bytes, name: str) -> Any:
         if not text[: error.pos].strip() and text.strip():
             slip = f" It begins “{shortened(text.strip())}”."
         raise NotJsonError(f"{name} is not JSON: {error}.{slip}", name) from error
+
+
+def json_numbers(content: Any) -> Floats:
+    """Numbers of JSON content as an array.
+
+    Raises:
+        ValueError: there are texts among them, such as numbers in quotes, or lists of other lengths.
+    """
+    array = np.array(content)
+    if array.size and array.dtype.kind not in "biuf":
+        raise ValueError("what must be numbers has other values, such as numbers in quotes")
+    return array.astype(np.float64)
 
 
 def toml_content(source: str | bytes, name: str) -> dict[str, Any]:

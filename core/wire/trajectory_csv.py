@@ -23,7 +23,7 @@ from core.arrays import Bools, Floats, frozen_floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory, difference_velocities, turned_about_body
 from core.text.decoding import without_mark
-from core.text.documents import NotJsonError, json_content
+from core.text.documents import NotJsonError, json_content, json_numbers
 from core.text.numbers import plain_number
 from core.text.tables import Table, read_table
 from core.wire.waypoints import is_waypoint_text
@@ -228,7 +228,7 @@ def _assemble(
     n, size = table.shape[1], 3 + 3 * legs
     columns = table.T
     body, feet = columns[:, :3], columns[:, 3:size].reshape(n, legs, 3)
-    times = np.asarray(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL, np.float64)
+    times = json_numbers(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL)
     if layout.has_velocities:
         body_velocity = columns[:, size : size + 3]
         feet_velocity = columns[:, size + 3 :].reshape(n, legs, 3)
@@ -236,7 +236,7 @@ def _assemble(
         body_velocity = difference_velocities(times, body)
         feet_velocity = difference_velocities(times, feet)
         assumptions.append("Velocities are missing; they are differences of the positions.")
-    contact = np.array(companion["contact"], dtype=np.bool_) if companion else standing_feet(feet)
+    contact = json_numbers(companion["contact"]).astype(np.bool_) if companion else standing_feet(feet)
     trajectory = Trajectory(times, body, np.zeros(n), feet, contact, body_velocity, feet_velocity)
     if companion:
         trajectory = _headed(trajectory, companion)
@@ -246,7 +246,7 @@ def _assemble(
 
 def _headed(trajectory: Trajectory, companion: dict[str, Any]) -> Trajectory:
     """The motion in the world, with the heading that the companion states."""
-    heading = np.asarray(companion["heading"], np.float64)
+    heading = json_numbers(companion["heading"])
     axes = companion.get("feet_axes", WORLD_AXES)
     if axes not in VERSIONS:
         raise ValueError(f"feet_axes is {axes!r}; it must be one of {', '.join(VERSIONS)}")

@@ -15,7 +15,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.model import RobotModel
-from core.text.documents import NotJsonError, json_content
+from core.text.documents import NotJsonError, json_content, json_numbers
 from core.wire.waypoints import Waypoints
 
 FORMAT = "footfall-waypoints"
@@ -86,7 +86,7 @@ def parse_waypoint_companion(text: str, csv_text: str, name: str) -> WaypointCom
     try:
         return WaypointCompanion(
             robot=str(content["robot"]),
-            stop_bound=None if content["stop_bound"] is None else float(content["stop_bound"]),
+            stop_bound=None if content["stop_bound"] is None else float(json_numbers(content["stop_bound"])),
             origin=dict(content["origin"]),
             motion=None if content["motion"] is None else _motion(content["motion"]),
         )
@@ -121,9 +121,9 @@ def require_same_strokes(model: RobotModel, motion: Trajectory, waypoints: Waypo
 
 def _motion(content: dict[str, Any]) -> Trajectory:
     def numbers(key: str) -> Floats:
-        return np.array(content[key], dtype=np.float64)
+        return json_numbers(content[key])
 
-    contact = np.array(content["contact"], dtype=np.bool_)
+    contact = numbers("contact").astype(np.bool_)
     return Trajectory(numbers("times"), numbers("body"), numbers("heading"), numbers("feet"), contact)
 
 

@@ -12,23 +12,24 @@ Functions are called like the commands of `footfall` on the command line, and ta
 notebook, values show themselves as pictures and tables.
 
 The program's packages are loaded as parts of this module, such as `footfall.core`, so that they get along
-with a `core.py` or an `app.py` of your own.
+with a `core.py` or an `app.py` of your own. The command goes the same way, also as `python -m footfall`.
 """
 
 import builtins
 import importlib
+import os
 import sys
 from collections.abc import Mapping, Sequence
-from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 _NAME = "footfall"
 _PACKAGES = frozenset({"app", "core", "robot_description", "solver_jobs"})
-_HOME = str(Path(__file__).resolve().parent)
-"""Where the packages stand: beside this file, in a checkout as in an installation."""
+_FOLDER = os.path.dirname(os.path.realpath(__file__))
+_INSTALLED = os.path.join(_FOLDER, "footfall_studio")
+_HOME = _INSTALLED if os.path.isdir(_INSTALLED) else _FOLDER
+"""Where the packages stand: in a folder of our own if installed, beside this file in a checkout."""
 __path__: list[str] = []
 """Makes them parts of this module, and nothing else that stands there."""
 
@@ -60,7 +61,7 @@ class _Loader(SourceFileLoader):
         super().exec_module(module)
 
 
-class _FootfallFinder(MetaPathFinder):
+class _FootfallFinder:
     """Finds the program's packages under this module's name."""
 
     def find_spec(
@@ -111,6 +112,12 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = sorted(_HOME_OF)
 
 
+def main() -> int:
+    """Runs the command whose arguments the process has, and returns its exit status."""
+    status: int = importlib.import_module(f"{_NAME}.app.cli").main()
+    return status
+
+
 def __getattr__(name: str) -> Any:
     """A function or a class, whose file is loaded when it is first asked for."""
     if name == "__version__":
@@ -125,3 +132,7 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return [*__all__, "__version__"]
+
+
+if __name__ == "__main__":
+    sys.exit(importlib.import_module(_NAME).main())

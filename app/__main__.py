@@ -1,7 +1,7 @@
-"""`python -m app` is the command `footfall`."""
+"""`python -m app` in the source tree is the command `footfall`."""
 
 import sys
 
-from app.cli import main
+from footfall import main
 
 sys.exit(main())

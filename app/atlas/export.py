@@ -9,7 +9,7 @@ from app.atlas.atlas_file import AtlasFile
 from app.atlas.entries import entries_with_physics
 from app.atlas.map_page import map_page
 from app.common.json import Json
-from app.store.plain_file import write_atomically
+from app.store.named_file import form_of, write_named
 from core.atlas.row import FIGURES, AtlasRow
 from core.errors import InputError
 
@@ -26,16 +26,17 @@ def export_atlas(atlas: AtlasFile, path: Path) -> int:
 
     Args:
         atlas: the file.
-        path: ends in .csv, .parquet or .html.
+        path: ends in .csv, .parquet or .html; CSV where it is no plain file.
 
     Raises:
         InputError: it ends in something else, or what Parquet needs is not installed.
         StorageError: the disk does not take it.
     """
-    if path.suffix not in MEDIA_TYPES:
+    form = form_of(path, MEDIA_TYPES)
+    if form is None:
         *others, last = MEDIA_TYPES
         raise InputError(f"{path} must end in {', '.join(others)} or {last}.", "-o")
-    write_atomically(path, exported(atlas, path.suffix))
+    write_named(path, exported(atlas, form))
     return sum(atlas.counts().values())
 
 

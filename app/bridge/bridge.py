@@ -5,21 +5,21 @@ the worker, which feeds the session, keeps its deadlines and tells the subscribe
 """
 
 import logging
-import queue
 import threading
-import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 
+from app.bridge.inbox import Bytes, HungUp, Inbox
 from app.bridge.jog import JogPlan
 from app.bridge.state_machine import RobotStateMachine
 from app.bridge.states import IN_RUN, Direction, LinkState, RobotSnapshot, RunPlan, Transition
 from app.bridge.stop_confirmation import STOP_LIMIT
 from app.bridge.transport import Transport
 from app.bridge.write_gate import Clock, Log, WriteGate
+from app.common.clock import boot_seconds
 from core.errors import RobotError, StateError
 from core.robot.model import RobotModel
+from core.running_time import Deadline, RunningClock
 
 logger = logging.getLogger(__name__)
 
@@ -27,7 +27,7 @@ TICK = 0.05
 """Longest time between two looks at the deadlines, s."""
 
 LATE = 0.25
-"""A worker that wakes so much later than its tick was kept from running; the robot may have spoken, s."""
+"""A program that looks so much later than the tick was kept from running; the robot may have spoken, s."""
 
 TELEMETRY_PERIOD = 0.05
 """Subscribers hear of strokes at most 20 times a second."""
@@ -36,24 +36,13 @@ Callback = Callable[[RobotSnapshot], None]
 Opener = Callable[[str, Callable[[bytes], None], Callable[[str], None]], Transport]
 
 
-@dataclass(frozen=True)
-class _Bytes:
-    data: bytes
-    time: float
-
-
-@dataclass(frozen=True)
-class _HungUp:
-    line: int
-    reason: str
-
-
 class RobotBridge:
     """The robot for the rest of the program; every method may be called from any thread.
 
     Args:
         log: told of all bytes both ways, with the time of `clock`; must return at once.
-        clock: seconds that only grow; every deadline is measured with it.
+        clock: seconds that only grow, also while the machine is suspended; for the record, and for the
+            deadlines as far as the program ran.
         tick: longest time between two looks at the deadlines, s of real time.
         opener: opens a line.
     """
@@ -62,7 +51,7 @@ class RobotBridge:
         self,
         log: Log = lambda direction, data, when: None,
         *,
-        clock: Clock = time.monotonic,
+        clock: Clock = boot_seconds,
         tick: float = TICK,
         opener: Opener = Transport,
     ) -> None:
@@ -71,11 +60,12 @@ class RobotBridge:
         self._tick = tick
         self._opener = opener
         self._gate = WriteGate(log, clock)
-        self._machine = RobotStateMachine(self._gate)
+        self._running = RunningClock(clock, tick + LATE)
+        self._machine = RobotStateMachine(self._gate, clock)
         self._lock = threading.Lock()
         self._handshake = threading.Lock()
         self._leaving = threading.Lock()
-        self._inbox: queue.SimpleQueue[_Bytes | _HungUp | None] = queue.SimpleQueue()
+        self._inbox = Inbox()
         self._subscribers: tuple[Callback, ...] = ()
         self._transport: Transport | None = None
         self._lines_opened = 0
@@ -88,7 +78,7 @@ class RobotBridge:
     def snapshot(self) -> RobotSnapshot:
         """Everything there is to show, now."""
         with self._lock:
-            return self._machine.snapshot(self._clock())
+            return self._machine.snapshot()
 
     @property
     def transitions(self) -> tuple[Transition, ...]:
@@ -106,7 +96,7 @@ class RobotBridge:
         """
         self._subscribers = (*self._subscribers, callback)
         self._told_revision = -1
-        self._inbox.put(None)
+        self._inbox.wake()
 
         def unsubscribe() -> None:
             self._subscribers = tuple(c for c in self._subscribers if c is not callback)
@@ -130,8 +120,8 @@ class RobotBridge:
             with self._lock:
                 self._transport = transport
                 self._gate.attach(transport)
-                self._machine.opened(device, self._clock())
-        self._inbox.put(None)
+                self._machine.opened(device, self._now())
+        self._inbox.wake()
 
     def disconnect(self) -> None:
         """Closes the line; a run under way is stopped first, and waited for as long as a ramp may last.
@@ -148,7 +138,7 @@ class RobotBridge:
         self.disconnect()
         with self._leaving:
             self._closing = True
-        self._inbox.put(None)
+        self._inbox.wake()
         self._worker.join()
 
     def arm(self, by: str) -> None:
@@ -157,7 +147,7 @@ class RobotBridge:
         Raises:
             StateError: the robot is not disarmed or done.
         """
-        self._do(lambda now: self._machine.arm(by, now))
+        self._do(lambda now: self._machine.arm(by))
 
     def disarm(self, by: str, why: str = "") -> None:
         """Takes back the permission to move an armed robot; does nothing in any other state.
@@ -166,7 +156,7 @@ class RobotBridge:
             by: who does it.
             why: a sentence for whoever looks at the robot then.
         """
-        self._do(lambda now: self._machine.disarm(by, now, why))
+        self._do(lambda now: self._machine.disarm(by, why))
 
     def send(self, plan: RunPlan, by: str, run_id: str | None = None) -> str:
         """Moves to the start pose slowly, then through the approved waypoints.
@@ -184,8 +174,8 @@ class RobotBridge:
             InputError: a stroke cannot be sent.
         """
         with self._lock:
-            name = self._machine.send(plan, by, self._clock(), run_id)
-        self._inbox.put(None)
+            name = self._machine.send(plan, by, self._now(), run_id)
+        self._inbox.wake()
         return name
 
     def pause(self, by: str) -> None:
@@ -194,7 +184,7 @@ class RobotBridge:
         Raises:
             StateError: no run is moving.
         """
-        self._do(lambda now: self._machine.pause(by, now))
+        self._do(lambda now: self._machine.pause(by))
 
     def resume(self, by: str) -> None:
         """Goes on with a paused run.
@@ -282,20 +272,28 @@ class RobotBridge:
             self._latch_stop(by, reason)
 
     def _latch_stop(self, by: str, reason: str | None) -> None:
+        now = self._now()
         if reason is not None:
-            self._machine.hung_up(reason, self._clock())
-        self._machine.stop(by, self._clock(), is_sent=reason is None)
-        self._inbox.put(None)
+            self._machine.hung_up(reason, now)
+        self._machine.stop(by, now, is_sent=reason is None)
+        self._inbox.wake()
 
     def _do(self, wish: Callable[[float], None]) -> None:
         with self._lock:
-            wish(self._clock())
-        self._inbox.put(None)
+            wish(self._now())
+        self._inbox.wake()
+
+    def _now(self) -> float:
+        """The time in which the program ran; tells the machine of time in which it did not."""
+        away = self._running.look()
+        now = self._running()
+        if away:
+            self._machine.away(away, now)
+        return now
 
     def _hear(self, data: bytes) -> None:
-        now = self._clock()
-        self._log(Direction.FROM_ROBOT, data, now)
-        self._inbox.put(_Bytes(data, now))
+        self._log(Direction.FROM_ROBOT, data, self._clock())
+        self._inbox.put(Bytes(data, self._running()))
 
     def _require_free(self) -> None:
         with self._lock:
@@ -305,14 +303,14 @@ class RobotBridge:
 
     def _open(self, device: str, line: int) -> Transport:
         def report(reason: str) -> None:
-            self._inbox.put(_HungUp(line, reason))
+            self._inbox.put(HungUp(line, reason))
 
         try:
             return self._opener(device, self._hear, report)
         except RobotError as error:
             with self._lock:
                 self._machine.refused(device, error.sentence)
-            self._inbox.put(None)
+            self._inbox.wake()
             raise
 
     def _leave(self) -> None:
@@ -322,8 +320,8 @@ class RobotBridge:
         with self._lock:
             self._close_line()
             if self._machine.link is not LinkState.DISCONNECTED:
-                self._machine.closed(self._clock())
-        self._inbox.put(None)
+                self._machine.closed()
+        self._inbox.wake()
 
     def _close_line(self) -> None:
         transport, self._transport = self._transport, None
@@ -332,7 +330,7 @@ class RobotBridge:
             transport.close()
 
     def _await_stop(self) -> None:
-        deadline = self._clock() + STOP_LIMIT
+        deadline = Deadline(STOP_LIMIT, self._clock)
         stop_confirmed = threading.Event()
 
         def look(_: RobotSnapshot | None = None) -> None:
@@ -342,43 +340,38 @@ class RobotBridge:
 
         unsubscribe = self.subscribe(look)
         look()
-        while not stop_confirmed.is_set() and self._clock() < deadline:
+        while not stop_confirmed.is_set() and not deadline.is_over:
             stop_confirmed.wait(self._tick)
         unsubscribe()
 
     def _work(self) -> None:
         while not self._closing:
-            began, slept_from = self._clock(), time.monotonic()
-            items = self._take()
+            items = self._inbox.take(self._tick)
             with self._lock:
+                self._now()
                 for item in items:
                     self._feed(item)
-                now = self._clock()
-                # Looked at after `now`, so that it counts wherever the worker was kept from running.
-                late = time.monotonic() - slept_from - self._tick
-                if late > LATE:
-                    self._machine.monitor.excuse(now - began, now)
-                self._machine.tick(now)
+                self._now()
+                if self._machine.was_away:
+                    self._catch_up()
+                self._machine.tick(self._running())
             self._tell()
 
-    def _take(self) -> list[_Bytes | _HungUp]:
-        items: list[_Bytes | _HungUp] = []
-        try:
-            item = self._inbox.get(timeout=self._tick)
-            while True:
-                if item is not None:
-                    items.append(item)
-                item = self._inbox.get_nowait()
-        except queue.Empty:
-            return items
+    def _catch_up(self) -> None:
+        """What waited while the program did not run is read before anything is judged."""
+        if self._transport is not None:
+            self._transport.wait_read()
+        for item in self._inbox.take():
+            self._feed(item)
+        self._machine.listen_anew(self._running())
 
-    def _feed(self, item: _Bytes | _HungUp) -> None:
+    def _feed(self, item: Bytes | HungUp) -> None:
         if self._machine.link is LinkState.DISCONNECTED:
             return
-        if isinstance(item, _Bytes):
+        if isinstance(item, Bytes):
             self._machine.received(item.data, item.time)
         elif item.line == self._lines_opened:
-            self._machine.hung_up(item.reason, self._clock())
+            self._machine.hung_up(item.reason, self._running())
 
     def _tell(self) -> None:
         now = self._clock()
@@ -388,7 +381,7 @@ class RobotBridge:
             if revision == self._told_revision and not fresh:
                 return
             self._told_revision, self._told_readings, self._told_at = revision, readings, now
-            snapshot = self._machine.snapshot(now)
+            snapshot = self._machine.snapshot()
         for callback in self._subscribers:
             try:
                 callback(snapshot)

@@ -43,6 +43,9 @@ needs up to 11 s for its first small step (firmware.md, hazard 11)."""
 IDLE_PASSES = 3
 """A robot at work says so in every pass of its loop; after so many without a word of it the move is over."""
 
+REST_PASSES = 10
+"""After so many passes without work nothing more is to come of a move, even where lines are missing."""
+
 _WORK = (Execute, CurrentPoint, ErrorScan, ErrorsChecked)
 
 HELD_STOP = "it still holds an old stop"
@@ -107,17 +110,25 @@ class Delivery:
         self._early_end = early_end
         self._executing = False
         self._idle = 0
+        self._misses_lines = False
 
     @property
     def arrived(self) -> bool:
         """Whether everything was seen."""
         return not self._left and self.failure is None
 
+    def miss_lines(self) -> None:
+        """Lines from the robot may be missing; a robot at rest is believed by its strokes."""
+        self._misses_lines = True
+
     def see(self, line: Line) -> None:
         """Takes the next line from the robot."""
         if not self._left or self.failure is not None:
             return
         self._follow(line)
+        if self._misses_lines and self._idle >= REST_PASSES:
+            self._judge_at_rest(line)
+            return
         match self._left[0]:
             case Stage.ECHO:
                 self._await_echo(line)
@@ -138,11 +149,17 @@ class Delivery:
         """Fails the delivery if its time is over."""
         if not self._left or self.failure is not None:
             return
-        if self._left[0] is Stage.ECHO and now > self._sent_at + ECHO_DEADLINE:
+        awaits_echo = self._left[0] is Stage.ECHO and not self._misses_lines
+        if awaits_echo and now > self._sent_at + ECHO_DEADLINE:
             self.failure = f"The robot did not take a message within {ECHO_DEADLINE} s."
         elif now > self._deadline:
             seconds = self._deadline - self._sent_at
-            self.failure = f"Not reached within {seconds:.1f} s: {self.describe_distance(measured_mm)}."
+            if self._is_reached(measured_mm):
+                self.failure = (
+                    f"All motors are in place, but the robot did not report that within {seconds:.1f} s."
+                )
+            else:
+                self.failure = f"Not reached within {seconds:.1f} s: {self.describe_distance(measured_mm)}."
 
     def describe_distance(self, measured_mm: tuple[float, ...]) -> str:
         """Names the motor that is farthest from its target, and how far."""
@@ -150,7 +167,7 @@ class Delivery:
         worst = distances.index(max(distances))
         return (
             f"{name_motor(worst)} stands at {measured_mm[worst]:.2f} mm, {distances[worst]:.2f} mm from its "
-            f"{self.target_mm[worst]:.2f} mm (limit {THRESHOLD_MM} mm)"
+            f"{self.target_mm[worst]:.2f} mm (limit {ARRIVAL_MM:.2f} mm)"
         )
 
     def _await_echo(self, line: Line) -> None:
@@ -169,12 +186,14 @@ class Delivery:
                 self._left.pop(0)
             else:
                 self.failure = "The robot read other strokes than were sent."
-        elif isinstance(line, NewData | PointCount | EndOfTrajectories):
+        elif isinstance(line, NewData | PointCount | EndOfTrajectories) and not self._misses_lines:
             self.failure = "The robot did not confirm the strokes that it was sent."
 
     def _await_end(self, line: Line) -> None:
         if isinstance(line, EndOfTrajectories):
             self._left.pop(0)
+        elif self._misses_lines:
+            return
         elif isinstance(line, NewData) and not self._executing:
             self.failure = f"The robot took the message but does not move: {HELD_STOP}."
         elif self._executing and self._idle >= IDLE_PASSES:
@@ -183,8 +202,18 @@ class Delivery:
     def _await_measurement(self, line: Line) -> None:
         if not isinstance(line, Telemetry):
             return
-        if all(abs(t - s) <= ARRIVAL_MM for t, s in zip(self.target_mm, line.strokes_mm, strict=True)):
+        if self._is_reached(line.strokes_mm):
             self._left.pop(0)
         else:
-            place = self.describe_distance(line.strokes_mm)
-            self.failure = f"The robot says that it arrived, but {place}."
+            says = "is at rest" if self._misses_lines else "says that it arrived"
+            self.failure = f"The robot {says}, but {self.describe_distance(line.strokes_mm)}."
+
+    def _judge_at_rest(self, line: Line) -> None:
+        if Stage.MEASURE in self._left:
+            self._left = [Stage.MEASURE]
+            self._await_measurement(line)
+        else:
+            self.failure = "The robot’s answer to a message was lost."
+
+    def _is_reached(self, measured_mm: tuple[float, ...]) -> bool:
+        return all(abs(t - m) <= ARRIVAL_MM for t, m in zip(self.target_mm, measured_mm, strict=True))

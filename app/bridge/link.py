@@ -9,6 +9,7 @@ from app.bridge.handshake import START_LIMIT, Handshake
 from app.bridge.messages import (
     CONNECTING,
     NOT_CONNECTED,
+    NOT_SENT,
     RESTARTED,
     restless_sentence,
     silent_sentence,
@@ -19,7 +20,7 @@ from app.bridge.state_log import StateLog
 from app.bridge.states import IN_RUN, LinkState, RobotState
 from app.bridge.stop_procedure import StopProcedure
 from app.bridge.telemetry import TelemetryMonitor
-from app.bridge.write_gate import WriteGate
+from app.bridge.write_gate import Clock, WriteGate
 from core.errors import RobotError
 from core.wire.lines import Line, LineReader, SetupFinished, SetupMoving
 
@@ -29,14 +30,16 @@ class RobotLink(StateLog, ABC):
 
     Args:
         gate: the way out.
+        clock: by which changes and runs are noted, s; the `now` of all methods counts time in which the
+            program ran, for the deadlines.
 
     Attributes:
         device: what is or was connected.
         monitor: what the robot's lines tell.
     """
 
-    def __init__(self, gate: WriteGate) -> None:
-        super().__init__()
+    def __init__(self, gate: WriteGate, clock: Clock) -> None:
+        super().__init__(clock)
         self.device: str | None = None
         self.monitor = TelemetryMonitor(0.0)
         self._gate = gate
@@ -45,6 +48,8 @@ class RobotLink(StateLog, ABC):
         self._reader = LineReader()
         self._hung_up = False
         self._clearing = False
+        self._was_away = False
+        self._away_cause = ""
 
     @property
     def in_run(self) -> bool:
@@ -64,7 +69,7 @@ class RobotLink(StateLog, ABC):
         self._hung_up = False
         self._reader = LineReader()
         self.monitor = TelemetryMonitor(now)
-        self.become(now, f"{device} was opened.", CONNECTING, link=LinkState.CONNECTING)
+        self.become(f"{device} was opened.", CONNECTING, link=LinkState.CONNECTING)
 
     def refused(self, device: str, reason: str) -> None:
         """A line could not be opened."""
@@ -72,11 +77,10 @@ class RobotLink(StateLog, ABC):
         self.last_error = reason
         self.revision += 1
 
-    def closed(self, now: float) -> None:
+    def closed(self) -> None:
         """The line was closed on purpose."""
-        self._drop_run(now)
+        self._drop_run()
         self.become(
-            now,
             "Disconnected.",
             NOT_CONNECTED,
             link=LinkState.DISCONNECTED,
@@ -94,6 +98,40 @@ class RobotLink(StateLog, ABC):
         for line in self._reader.feed(data):
             self.monitor.see(line, now)
             self._see(line, now)
+
+    @property
+    def was_away(self) -> bool:
+        """Whether the bytes that came while the program did not run are still to be taken."""
+        return self._was_away
+
+    def away(self, seconds: float, now: float) -> None:
+        """The program did not run for so long; what the robot said meanwhile comes next, or is lost."""
+        del seconds, now
+        self._was_away = True
+        self.monitor.forget_age()
+
+    def stop(self, by: str, now: float, *, is_sent: bool = True) -> None:
+        """Latches a stop whose bytes are already out, or which the line did not take.
+
+        A fault that it comes after is still told of, and a time in which the program did not run.
+        """
+        if self.link is LinkState.DISCONNECTED:
+            return
+        stands = self.robot is RobotState.STOPPED and not self._stop.pending
+        if (stands or self.robot is RobotState.STOPPING) and not self._clearing:
+            return
+        cause = self._stop.cause if self.robot is RobotState.FAULT else self._away_cause
+        self._stop.begin(now, text=self._describe_stop(by), cause=cause)
+        self._drop_run()
+        sentence = self._stop.describe(RobotState.STOPPING) if is_sent else f"{cause} {NOT_SENT}".strip()
+        self.become(f"Stop by {by}.", sentence, robot=RobotState.STOPPING)
+
+    def listen_anew(self, now: float) -> None:
+        """The bytes that waited are taken; from here on some may be missing, and all are of the present."""
+        del now
+        self._was_away = False
+        self._reader.cut()
+        self.monitor.forget_age()
 
     def tick(self, now: float) -> None:
         """Time has passed: silence, standing still, deadlines."""
@@ -114,11 +152,11 @@ class RobotLink(StateLog, ABC):
             return
         self._fault(RESTARTED, now)
         self._handshake.restart(now)
-        self.become(now, "The board restarted.", self.sentence, link=LinkState.CONNECTING)
+        self.become("The board restarted.", self.sentence, link=LinkState.CONNECTING)
 
     def _open_up(self, line: Line, now: float) -> None:
         if self._handshake.is_ready(now, self.monitor):
-            self._become_ready(now)
+            self._become_ready()
         elif self._handshake.flush_due(line, self.monitor):
             self._handshake.flushed(now, self.monitor)
             try:
@@ -126,7 +164,7 @@ class RobotLink(StateLog, ABC):
             except RobotError as error:
                 self.hung_up(error.sentence, now)
 
-    def _become_ready(self, now: float) -> None:
+    def _become_ready(self) -> None:
         self._gate.trust()
         robot = self.robot
         if robot is RobotState.UNKNOWN and self._stop.stands:
@@ -134,7 +172,7 @@ class RobotLink(StateLog, ABC):
         elif robot is RobotState.UNKNOWN:
             robot = RobotState.DISARMED
         sentence = self._stop.describe(robot)
-        self.become(now, "The robot answers.", sentence, link=LinkState.READY, robot=robot)
+        self.become("The robot answers.", sentence, link=LinkState.READY, robot=robot)
 
     def _check_silence(self, now: float) -> None:
         silence = now - self.monitor.last_byte
@@ -160,13 +198,22 @@ class RobotLink(StateLog, ABC):
         except RobotError as error:
             self.hung_up(error.sentence, now)
 
+    def _stop_by_itself(self, now: float) -> None:
+        is_sent = True
+        try:
+            self._gate.stop()
+        except RobotError as error:
+            is_sent = False
+            self.hung_up(error.sentence, now)
+        self.stop("the program", now, is_sent=is_sent)
+
     def _fault(self, sentence: str, now: float) -> None:
-        self._drop_run(now)
+        self._drop_run()
         latched = self.robot in (RobotState.STOPPING, RobotState.STOPPED)
         self._stop.begin(now, text=self._stop.text if latched else None, cause=sentence)
         self.last_error = sentence
         robot = RobotState.STOPPING if latched else RobotState.FAULT
-        self.become(now, sentence, self._stop.describe(robot), robot=robot)
+        self.become(sentence, self._stop.describe(robot), robot=robot)
         self._send_stop(now)
 
     def _lose(self, sentence: str, now: float) -> None:
@@ -178,10 +225,10 @@ class RobotLink(StateLog, ABC):
         begun = robot is RobotState.FAULT is not self.robot
         if begun:
             self._stop.begin(now, cause=without_remedy(sentence))
-        self._drop_run(now)
+        self._drop_run()
         self.monitor.idle_lines = 0
         self.last_error = sentence
-        self.become(now, sentence, sentence, link=LinkState.LOST, robot=robot)
+        self.become(sentence, sentence, link=LinkState.LOST, robot=robot)
         if begun and not self._hung_up:
             self._send_stop(now)
 
@@ -193,5 +240,9 @@ class RobotLink(StateLog, ABC):
         """Where the run under way is, for a person, or empty."""
 
     @abstractmethod
-    def _drop_run(self, now: float) -> None:
+    def _describe_stop(self, by: str) -> str:
+        """Who stops, and when in a run."""
+
+    @abstractmethod
+    def _drop_run(self) -> None:
         """Gives up what is under way."""

@@ -1,8 +1,10 @@
 """The sentences of the bridge's states."""
 
+import re
 from itertools import zip_longest
 
 from app.bridge.states import RobotState
+from core.wire.lines import Line
 from core.wire.messages import THRESHOLD_MM, name_motor
 
 NOTICED_MM = 0.9 * THRESHOLD_MM
@@ -69,6 +71,18 @@ def _around(text: str, place: int) -> str:
     shown = "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in text[begin:end])
     quoted = f"“{'…' if begin else ''}{shown}{'…' if end < len(text) else ''}”"
     return quoted if place < len(text) else f"nothing more after {quoted}"
+
+
+def words_of(line: Line | None) -> str:
+    """A line's kind in words, for people: `ErrorScan` becomes “error scan”."""
+    if line is None:
+        return "nothing"
+    return re.sub(r"(?<!^)(?=[A-Z])", " ", type(line).__name__).lower()
+
+
+def away_sentence(seconds: float) -> str:
+    """Says that the program itself did not get to run."""
+    return f"The program did not run for {seconds:.1f} s."
 
 
 def silent_sentence(silence: float, limit: float, place: str) -> str:

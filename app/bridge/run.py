@@ -8,6 +8,7 @@ import numpy as np
 from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.messages import displaced_sentence
 from app.bridge.states import RunPhase, RunPlan, RunProgress
+from app.bridge.write_gate import Clock
 from core.errors import StateError
 from core.wire.messages import HIGHEST_MM, LOWEST_MM, THRESHOLD_MM, encode_waypoint, strokes_to_mm
 from core.wire.robot_time import START_MOVE, longest_start_move, ramp_time
@@ -89,14 +90,14 @@ class Run:
         measured_mm: where the motors stand.
         run_id: name of the run.
         by: who sends it.
-        now: time, s.
+        clock: by which it is timed, s.
 
     Raises:
         StateError, InputError: see `plan_moves`.
     """
 
     def __init__(
-        self, plan: RunPlan, measured_mm: tuple[float, ...], run_id: str, by: str, now: float
+        self, plan: RunPlan, measured_mm: tuple[float, ...], run_id: str, by: str, clock: Clock
     ) -> None:
         self._moves = plan_moves(plan, measured_mm)
         self._order = plan.run_range.order(plan.waypoints.count)
@@ -105,7 +106,8 @@ class Run:
         self._plan_count = plan.waypoints.count
         self._sent = 0
         self._reached = 0
-        self._began = now
+        self._clock = clock
+        self._began = clock()
         self._ended: float | None = None
         self.run_id = run_id
         self.by = by
@@ -119,6 +121,11 @@ class Run:
     def may_hold(self) -> bool:
         """Whether a pause may end at the pose that was reached last."""
         return self._reached > 0 and self._moves[self._reached - 1].hold_ok
+
+    @property
+    def has_hold_ahead(self) -> bool:
+        """Whether a pause may end at the move in flight or at a later one."""
+        return any(move.hold_ok for move in self._moves[self._reached :])
 
     @property
     def place(self) -> str:
@@ -155,15 +162,16 @@ class Run:
         """Counts the move in flight as reached."""
         self._reached += 1
 
-    def end(self, now: float) -> None:
+    def end(self) -> None:
         """Stops the run's clock; only the first end counts."""
-        self._ended = now if self._ended is None else self._ended
+        self._ended = self._clock() if self._ended is None else self._ended
 
-    def elapsed(self, now: float) -> float:
+    @property
+    def elapsed(self) -> float:
         """Time since the run began, until its end, s."""
-        return (now if self._ended is None else self._ended) - self._began
+        return (self._clock() if self._ended is None else self._ended) - self._began
 
-    def progress(self, now: float) -> RunProgress:
+    def progress(self) -> RunProgress:
         """What to show of the run."""
         streaming = self._sent > self._start_count
         sent = max(self._sent - self._start_count, 0)
@@ -175,7 +183,7 @@ class Run:
             sent=sent,
             reached=reached,
             count=len(self._order),
-            elapsed=self.elapsed(now),
+            elapsed=self.elapsed,
             waypoint_sent=self._waypoint(sent),
             waypoint_reached=self._waypoint(reached),
             iteration=self._iteration(sent),

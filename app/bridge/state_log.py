@@ -5,6 +5,7 @@ from collections import deque
 
 from app.bridge.messages import NOT_CONNECTED
 from app.bridge.states import LinkState, RobotState, Transition
+from app.bridge.write_gate import Clock
 from core.errors import StateError
 
 logger = logging.getLogger(__name__)
@@ -15,6 +16,9 @@ KEPT_TRANSITIONS = 1000
 class StateLog:
     """The two states, the sentence that goes with them, and their history.
 
+    Args:
+        clock: by which changes are noted, s.
+
     Attributes:
         link: state of the cable.
         robot: state of the robot.
@@ -24,7 +28,8 @@ class StateLog:
         revision: grows with everything that is worth showing.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
         self.link = LinkState.DISCONNECTED
         self.robot = RobotState.UNKNOWN
         self.sentence = NOT_CONNECTED
@@ -35,7 +40,6 @@ class StateLog:
 
     def become(
         self,
-        now: float,
         cause: str,
         sentence: str,
         *,
@@ -48,7 +52,7 @@ class StateLog:
         self.sentence = sentence
         self.revision += 1
         self._changes += 1
-        self.transitions.append(Transition(now, self.link, self.robot, cause, self._changes))
+        self.transitions.append(Transition(self._clock(), self.link, self.robot, cause, self._changes))
         logger.info("link %s, robot %s: %s", self.link, self.robot, cause)
 
     def require_link(self, what: str) -> None:

@@ -5,7 +5,6 @@ and each change has its cause.
 """
 
 import itertools
-import re
 import uuid
 
 from app.bridge.delivery import (
@@ -20,12 +19,12 @@ from app.bridge.delivery import (
 )
 from app.bridge.jog import Jog, JogPlan
 from app.bridge.link import RobotLink
-from app.bridge.messages import NOT_SENT, SENTENCES, clearing_sentence
+from app.bridge.messages import SENTENCES, away_sentence, clearing_sentence, words_of
 from app.bridge.motor_test import MotorTest
 from app.bridge.run import Move, Run
-from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan
-from app.bridge.telemetry import STALE_TIME
-from app.bridge.write_gate import MessageKind, WriteGate
+from app.bridge.states import RobotSnapshot, RobotState, RunPhase, RunPlan
+from app.bridge.telemetry import SILENCE_LIMIT, STALE_TIME
+from app.bridge.write_gate import Clock, MessageKind, WriteGate
 from core.errors import RobotError, StateError
 from core.robot.model import RobotModel
 from core.wire.lines import Line
@@ -39,16 +38,20 @@ from core.wire.messages import (
     encode_waypoint,
 )
 
+FORGOTTEN = 300.0
+"""A program that comes back later than this lets nothing move, not even to the next pose for a pause, s."""
+
 
 class RobotStateMachine(RobotLink):
     """One robot on one link.
 
     Args:
         gate: the way out.
+        clock: by which changes and runs are noted, s; `now` is that of the deadlines (see `RobotLink`).
     """
 
-    def __init__(self, gate: WriteGate) -> None:
-        super().__init__(gate)
+    def __init__(self, gate: WriteGate, clock: Clock) -> None:
+        super().__init__(gate, clock)
         self._run: Run | None = None
         self._jog: Jog | None = None
         self._test: MotorTest | None = None
@@ -57,7 +60,7 @@ class RobotStateMachine(RobotLink):
         self._permit = -1
         self._numbers = itertools.count(1)
 
-    def snapshot(self, now: float) -> RobotSnapshot:
+    def snapshot(self) -> RobotSnapshot:
         """Everything there is to show."""
         strokes = self.monitor.strokes_mm
         return RobotSnapshot(
@@ -65,7 +68,7 @@ class RobotStateMachine(RobotLink):
             robot=self.robot,
             sentence=self.sentence,
             strokes=None if strokes is None else tuple(s / 1000.0 for s in strokes),
-            run=None if self._run is None else self._run.progress(now),
+            run=None if self._run is None else self._run.progress(),
             stop_text=self._stop.text,
             unknown_lines=self.monitor.unknown_lines,
             device=self.device,
@@ -83,36 +86,63 @@ class RobotStateMachine(RobotLink):
             self._delivery.check(now, self.monitor.strokes_mm)
             self._finish_delivery(now)
 
+    def away(self, seconds: float, now: float) -> None:
+        """The program did not run for so long, s: a run goes on after a short time only."""
+        super().away(seconds, now)
+        if self._delivery is not None:
+            self._delivery.miss_lines()
+        if not self.in_run:
+            return
+        cause, run, is_long = away_sentence(seconds), self._run, seconds > SILENCE_LIMIT
+        if self._jog is not None and is_long:
+            self._jog.end_early()
+        would_go_on = self._test is not None or (run is not None and self.robot is not RobotState.PAUSED)
+        if not (is_long and would_go_on):
+            self.become(cause, self.sentence)
+            return
+        self._away_cause = cause
+        if run is not None and run.has_hold_ahead and seconds <= FORGOTTEN:
+            self.become(cause, f"{cause} {SENTENCES[RobotState.PAUSING]}", robot=RobotState.PAUSING)
+        else:
+            self._stop_by_itself(now)
+
+    def listen_anew(self, now: float) -> None:
+        """The bytes that waited are taken, and what they decided is done."""
+        super().listen_anew(now)
+        self._finish_delivery(now)
+        if self._delivery is not None:
+            self._delivery.miss_lines()
+
     # Wishes
 
-    def arm(self, by: str, now: float) -> None:
+    def arm(self, by: str) -> None:
         """Lets the robot be moved."""
         self.require_link("armed")
         self.require_robot(RobotState.DISARMED, RobotState.DONE, remedy="Only a disarmed robot can be armed.")
         self._permit = self._gate.permit()
-        self.become(now, f"Armed by {by}.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+        self.become(f"Armed by {by}.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
 
-    def disarm(self, by: str, now: float, why: str = "") -> None:
+    def disarm(self, by: str, why: str = "") -> None:
         """Takes back the permission to move an armed robot; does nothing in any other state.
 
         Args:
             by: who does it.
-            now: time, s.
             why: a sentence for whoever looks at the robot then.
         """
         if self.robot is RobotState.ARMED:
             self._permit = -1
             sentence = f"{why} {SENTENCES[RobotState.DISARMED]}".strip()
-            self.become(now, f"Disarmed by {by}.", sentence, robot=RobotState.DISARMED)
+            self.become(f"Disarmed by {by}.", sentence, robot=RobotState.DISARMED)
 
     def send(self, plan: RunPlan, by: str, now: float, run_id: str | None = None) -> str:
         """Begins a run and returns its name, which is made up unless given."""
         self.require_link("sent a plan")
         self.require_robot(RobotState.ARMED, remedy="Arm the robot, then send the plan.")
-        run = Run(plan, self._measured_now(now), run_id or uuid.uuid4().hex[:12], by, now)
+        run = Run(plan, self._measured_now(now), run_id or uuid.uuid4().hex[:12], by, self._clock)
         self._run = run
+        self._away_cause = ""
         cause = f"Run {run.run_id} sent by {by}."
-        self.become(now, cause, SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
+        self.become(cause, SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
         self._send_next(now)
         return run.run_id
 
@@ -123,7 +153,7 @@ class RobotStateMachine(RobotLink):
         self._measured_now(now)
         self._run = None
         sentence = f"Every motor goes to {RESET_MM} mm."
-        self.become(now, f"Reset by {by}.", sentence, robot=RobotState.MOVING)
+        self.become(f"Reset by {by}.", sentence, robot=RobotState.MOVING)
         self._deliver(encode_reset(), (RESET_MM,) * MOTORS, RESTART, now, kind=MessageKind.RESET)
 
     def jog(self, plan: JogPlan, by: str, now: float) -> None:
@@ -134,7 +164,7 @@ class RobotStateMachine(RobotLink):
             raise StateError("The robot does not stand still yet. Wait until it does, then jog it.")
         self._jog = Jog(plan, self._measured(), by)
         self._run = None
-        self.become(now, f"Jog by {by}: {plan.text}.", f"Jog: {plan.text}.", robot=RobotState.MOVING)
+        self.become(f"Jog by {by}: {plan.text}.", f"Jog: {plan.text}.", robot=RobotState.MOVING)
         self._send_jog(now)
 
     def test_motors(self, model: RobotModel, by: str, now: float) -> None:
@@ -145,7 +175,7 @@ class RobotStateMachine(RobotLink):
         self._test = self._last_test = MotorTest(model, by)
         self._run = None
         sentence = "Motor test: one motor after the other moves out and back."
-        self.become(now, f"Motor test by {by}.", sentence, robot=RobotState.MOVING)
+        self.become(f"Motor test by {by}.", sentence, robot=RobotState.MOVING)
         self._go_on_testing(self._test, None, now)
 
     def end_early(self) -> None:
@@ -156,41 +186,26 @@ class RobotStateMachine(RobotLink):
             self._jog.end_early()
         self.revision += 1
 
-    def pause(self, by: str, now: float) -> None:
+    def pause(self, by: str) -> None:
         """Ends the movement at the next pose with all feet down."""
         self.require_robot(RobotState.MOVING, remedy="Only a run that moves can be paused.")
         if self._run is None:
             what = "jog" if self._jog is not None else "motor test" if self._test is not None else "reset"
             raise StateError(f"A {what} cannot be paused. Stop it instead.")
-        self.become(now, f"Pause by {by}.", SENTENCES[RobotState.PAUSING], robot=RobotState.PAUSING)
+        self.become(f"Pause by {by}.", SENTENCES[RobotState.PAUSING], robot=RobotState.PAUSING)
 
     def resume(self, by: str, now: float) -> None:
         """Goes on with a paused run."""
         remedy = "Only a paused run can be resumed."
         self.require_robot(RobotState.PAUSED, RobotState.PAUSING, remedy=remedy)
+        self._away_cause = ""
         waiting = self.robot is RobotState.PAUSED
         if waiting and self._run is not None:
             self.require_link("resumed")
             self._run.require_in_place(self._measured_now(now))
-        self.become(now, f"Resumed by {by}.", SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
+        self.become(f"Resumed by {by}.", SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
         if waiting:
             self._send_next(now)
-
-    def stop(self, by: str, now: float, *, is_sent: bool = True) -> None:
-        """Latches a stop whose bytes are already out, or which the line did not take.
-
-        A fault that it comes after is still told of.
-        """
-        if self.link is LinkState.DISCONNECTED:
-            return
-        stands = self.robot is RobotState.STOPPED and not self._stop.pending
-        if (stands or self.robot is RobotState.STOPPING) and not self._clearing:
-            return
-        cause = self._stop.cause if self.robot is RobotState.FAULT else ""
-        self._stop.begin(now, text=self._describe_stop(by, now), cause=cause)
-        self._drop_run(now)
-        sentence = self._stop.describe(RobotState.STOPPING) if is_sent else f"{cause} {NOT_SENT}".strip()
-        self.become(now, f"Stop by {by}.", sentence, robot=RobotState.STOPPING)
 
     def clear(self, by: str, now: float) -> None:
         """Replaces what the stopped robot would go on with by where it stands, then lets it go."""
@@ -205,7 +220,7 @@ class RobotStateMachine(RobotLink):
         self._permit = self._gate.permit()
         self._clearing = True
         sentence = clearing_sentence(measured, target, confirmed=not self._stop.pending)
-        self.become(now, f"Clear by {by}.", sentence)
+        self.become(f"Clear by {by}.", sentence)
         message = encode_waypoint([s / 1000.0 for s in target], 1.0)
         self._deliver(message, target, STORE, now, kind=MessageKind.CLEAR)
 
@@ -220,9 +235,16 @@ class RobotStateMachine(RobotLink):
             self._go_on_testing(self._test, line, now)
 
     def _send_next(self, now: float) -> None:
-        if self._run is None:
+        run = self._run
+        if run is None:
             return
-        move: Move = self._run.next_move()
+        if run.finished:
+            run.end()
+            self._permit = -1
+            self._away_cause = ""
+            self.become("The last waypoint was reached.", SENTENCES[RobotState.DONE], robot=RobotState.DONE)
+            return
+        move: Move = run.next_move()
         patience = START_PATIENCE if move.phase is RunPhase.START_POSE else PATIENCE
         self._deliver(move.message, move.target_mm, MOVE, now, patience=patience)
 
@@ -255,7 +277,7 @@ class RobotStateMachine(RobotLink):
 
     def _finish_delivery(self, now: float) -> None:
         delivery = self._delivery
-        if delivery is None:
+        if delivery is None or self.was_away:
             return
         if delivery.failure is not None:
             self._fail(delivery.failure, now)
@@ -272,23 +294,19 @@ class RobotStateMachine(RobotLink):
 
     def _fail(self, failure: str, now: float) -> None:
         place = f" {self._place[0].upper()}{self._place[1:]}." if self._place else ""
-        self._fault(f"{failure}{place} The robot said last: {_words(self.monitor.last_line)}.", now)
+        self._fault(f"{failure}{place} The robot said last: {words_of(self.monitor.last_line)}.", now)
 
     def _go_on_running(self, now: float) -> None:
         run = self._run
         if run is None:
-            self.become(now, "Reset done.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+            self.become("Reset done.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
             return
         run.arrive()
         self.revision += 1
-        if run.finished:
-            run.end(now)
-            self._permit = -1
-            self.become(
-                now, "The last waypoint was reached.", SENTENCES[RobotState.DONE], robot=RobotState.DONE
-            )
-        elif self.robot is RobotState.PAUSING and run.may_hold:
-            self.become(now, "All feet are down.", SENTENCES[RobotState.PAUSED], robot=RobotState.PAUSED)
+        is_over = run.finished and not self._away_cause
+        if self.robot is RobotState.PAUSING and run.may_hold and not is_over:
+            sentence = f"{self._away_cause} {SENTENCES[RobotState.PAUSED]}".strip()
+            self.become("All feet are down.", sentence, robot=RobotState.PAUSED)
         else:
             self._send_next(now)
 
@@ -297,7 +315,7 @@ class RobotStateMachine(RobotLink):
         self.revision += 1
         if jog.finished:
             self._jog = None
-            self.become(now, jog.end_words, SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+            self.become(jog.end_words, SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
         else:
             self._send_jog(now)
 
@@ -314,7 +332,7 @@ class RobotStateMachine(RobotLink):
         elif test.finished:
             self._test = None
             words = "Motor test ended early." if test.was_ended_early else "Motor test done."
-            self.become(now, words, SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+            self.become(words, SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
         self.revision += test.progress() != before
 
     def _go_on_clearing(self, delivery: Delivery, now: float) -> None:
@@ -326,7 +344,7 @@ class RobotStateMachine(RobotLink):
         self._clearing = False
         self._stop.lift()
         self._permit = -1
-        self.become(now, "Cleared.", SENTENCES[RobotState.DISARMED], robot=RobotState.DISARMED)
+        self.become("Cleared.", SENTENCES[RobotState.DISARMED], robot=RobotState.DISARMED)
 
     # Ends
 
@@ -335,7 +353,8 @@ class RobotStateMachine(RobotLink):
         work = self._test or self._jog or self._run
         return work.place if work is not None and self.in_run else ""
 
-    def _drop_run(self, now: float) -> None:
+    def _drop_run(self) -> None:
+        self._away_cause = ""
         self._delivery = None
         self._jog = None
         if self._test is not None:
@@ -344,11 +363,11 @@ class RobotStateMachine(RobotLink):
         self._clearing = False
         self._permit = -1
         if self._run is not None:
-            self._run.end(now)
+            self._run.end()
 
-    def _describe_stop(self, by: str, now: float) -> str:
+    def _describe_stop(self, by: str) -> str:
         if self._run is not None and self.in_run:
-            return f"stopped at {self._run.elapsed(now):.1f} s by {by}"
+            return f"stopped at {self._run.elapsed:.1f} s by {by}"
         return f"stopped by {by}"
 
     def _measured(self) -> tuple[float, ...]:
@@ -360,15 +379,7 @@ class RobotStateMachine(RobotLink):
         age = now - self.monitor.last_reading
         if age > STALE_TIME:
             raise StateError(
-                f"The robot has not reported its strokes for {age:.1f} s (limit {STALE_TIME} s). Wait "
-                "for its "
+                f"The robot has not reported its strokes for more than {STALE_TIME} s. Wait for its "
                 "telemetry; if none comes, stop the robot and look at its cable."
             )
         return self._measured()
-
-
-def _words(line: Line | None) -> str:
-    """A line's kind in words, for people: `ErrorScan` becomes “error scan”."""
-    if line is None:
-        return "nothing"
-    return re.sub(r"(?<!^)(?=[A-Z])", " ", type(line).__name__).lower()

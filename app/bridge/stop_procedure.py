@@ -84,11 +84,11 @@ class StopProcedure:
             stop.confirmed = True
             fault = self._state_log.robot is RobotState.FAULT
             robot = RobotState.FAULT if fault else RobotState.STOPPED
-            self._state_log.become(now, "The robot stands still.", self.describe(robot), robot=robot)
+            self._state_log.become("The robot stands still.", self.describe(robot), robot=robot)
             return
         sentence = f"{stop.cause} {NOT_STOPPED}".strip()
         if stop.overdue(now) and self._state_log.sentence != sentence:
-            self._state_log.become(now, "The stop was not confirmed in time.", sentence)
+            self._state_log.become("The stop was not confirmed in time.", sentence)
         if may_send and stop.repeat_due(now):
             self.send(now)
 

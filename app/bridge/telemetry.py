@@ -93,9 +93,10 @@ class TelemetryMonitor:
         ramp = ramp_time(self._farthest_mm / 1000.0) + OVERRUN + LATE_BYTES
         return min(max(IDLE_SILENCE, ramp), SILENCE_LIMIT)
 
-    def excuse(self, seconds: float, now: float) -> None:
-        """Nobody could listen for so long, until now, s; that time is not the robot's silence."""
-        self.last_byte = min(self.last_byte + seconds, now)
+    def forget_age(self) -> None:
+        """The readings so far are of a time that nobody can tell; only the next one shows where it stands."""
+        self.last_reading = -math.inf
+        self._still_from = None
 
     def stands_still(self, now: float) -> bool:
         """Whether every motor has been where it is for 0.3 s, by readings that are still coming in."""

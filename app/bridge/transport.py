@@ -15,12 +15,19 @@ from serial.tools import list_ports
 from app.bridge.devices import SerialDevice
 from app.bridge.network_line import CONNECT_DEADLINE, SCHEME, NetworkLine
 from core.errors import InputError, RobotError
+from core.running_time import Deadline
 
 BAUD = 9600
 """As the sketch asks for; the board's own USB ignores it. Never 1200, which starts the boot loader."""
 
 WRITE_DEADLINE = 0.5
 """A message of 110 bytes that is not out after this long never will be, s."""
+
+SLICE = 0.05
+"""The longest wait at a time for a line to take bytes, s."""
+
+READ_LIMIT = 0.3
+"""What has waited at the line is read within this; a robot that never pauses is not waited for longer, s."""
 
 CHUNK_BYTES = 65536
 
@@ -76,24 +83,31 @@ class Transport:
         Raises:
             RobotError: the line took no bytes in time, or has hung up.
         """
-        deadline = time.monotonic() + WRITE_DEADLINE
+        deadline = Deadline(WRITE_DEADLINE, time.monotonic, most=2 * SLICE)
         try:
             while data:
-                data = data[self._write_some(data, deadline) :]
+                data = data[self._write_some(data) :]
+                if data and deadline.is_over:
+                    raise RobotError(
+                        f"{self.device} took no message for {WRITE_DEADLINE} s. Check cable and power.",
+                        self.device,
+                    )
         except (serial.SerialException, OSError) as error:
             raise RobotError(_hung_up(self.device), self.device) from error
 
-    def _write_some(self, data: bytes, deadline: float) -> int:
+    def wait_read(self) -> None:
+        """Waits until the reader has taken what the robot sent before."""
+        deadline = Deadline(READ_LIMIT, time.monotonic)
+        while not deadline.is_over and select.select([self._port.fileno()], [], [], 0)[0]:
+            time.sleep(0.001)
+
+    def _write_some(self, data: bytes) -> int:
         try:
             # Don't poll for writability first: a pty blocks until input arrives.
             return os.write(self._port.fileno(), data)
         except BlockingIOError:
-            left = max(0.0, deadline - time.monotonic())
-            if select.select([], [self._port.fileno()], [], left)[1]:
-                return 0
-        raise RobotError(
-            f"{self.device} took no message for {WRITE_DEADLINE} s. Check cable and power.", self.device
-        )
+            select.select([], [self._port.fileno()], [], SLICE)
+            return 0
 
     def close(self) -> None:
         """Closes the line; doing it twice does no harm."""

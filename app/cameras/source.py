@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Protocol
 
 from app.cameras.address import CameraAddress
-from app.vision.video_io import Device, Picture, VideoFile
+from app.vision.video_file import VideoFile
+from app.vision.video_io import Device, Picture
 from core.errors import InputError
 
 
@@ -51,17 +52,13 @@ class PlayedFile:
         """Starts from the beginning."""
         self._file.close()
         self._file = VideoFile(self._path)
-        self._begun, self._number = time.monotonic(), 0
+        self._begun = time.monotonic()
 
     def next(self) -> tuple[float, Picture] | None:
         """Waits for the next picture."""
-        interval = 1.0 / self._file.facts.rate
-        late = time.monotonic() - self._begun - self._number * interval
-        for _ in range(int(late / interval)):
-            if not self._file.skip():
-                break
-            self._number += 1
-        due = self._begun + self._number * interval
+        while self._due(1) <= time.monotonic() and self._file.skip():
+            pass
+        due = self._due(0)
         time.sleep(max(0.0, due - time.monotonic()))
         if not self._path.exists():
             return None
@@ -69,8 +66,13 @@ class PlayedFile:
         if picture is None:
             self.begin_anew()
             due, picture = self._begun, self._file.read()
-        self._number += 1
         return None if picture is None else (due, picture)
+
+    def _due(self, later: int) -> float:
+        """When the next picture is due, or one so many later, by the monotonic clock, s."""
+        times, number = self._file.times, self._file.at + 1 + later
+        after = max(number - (times.size - 1), 0) / self._file.facts.rate
+        return self._begun + float(times[min(number, times.size - 1)]) + after
 
     def skip(self) -> bool:
         """Waits; a film that nobody sees stands still."""

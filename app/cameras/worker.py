@@ -11,7 +11,7 @@ from multiprocessing.connection import Connection
 from app.cameras.address import CameraAddress
 from app.cameras.source import CameraSource, open_source
 from app.vision.recorder import Recorded, Recorder, RecordingJob
-from app.vision.video_io import Picture, jpeg, scaled, use_one_thread
+from app.vision.video_io import Picture, jpeg, scaled, silence_libraries, use_one_thread
 from core.errors import InputError
 
 RETRY_SECONDS = 0.3
@@ -82,6 +82,7 @@ def run_camera(pipe: Connection, address: CameraAddress) -> None:
         address: where the camera is.
     """
     use_one_thread()
+    silence_libraries()
     try:
         _Camera(pipe, address).run()
     except (EOFError, ConnectionError):

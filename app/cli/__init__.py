@@ -4,8 +4,10 @@ import json
 import logging
 import sys
 from collections.abc import Sequence
+from typing import TextIO
 
-from app.cli.common.output import INTERRUPTED, drop, note, write
+from app.cli.common.output import INTERRUPTED, UNWRITABLE, drop, note, write
+from app.cli.common.streams import LogFormatter, prepare_streams
 from app.cli.parser import make_parser
 from app.common.signals import Interrupted
 from core.errors import (
@@ -37,11 +39,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         The exit status: 0 done, 2 bad input, 3 infeasible, 4 not fit, 5 robot, 130 interrupted.
     """
+    prepare_streams()
     words = list(sys.argv[1:] if arguments is None else arguments)
     wants_json = "--json" in words
-    logging.basicConfig(
-        stream=sys.stderr, level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s"
-    )
+    _log_to(sys.stderr)
     try:
         options = make_parser().parse_args(words)
         options.words = words
@@ -60,8 +61,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return status
 
 
+def _log_to(stream: TextIO) -> None:
+    """Writes warnings and errors of the log to a stream, unless the log goes somewhere already."""
+    if not logging.root.handlers:
+        handler = logging.StreamHandler(stream)
+        handler.setFormatter(LogFormatter("%(levelname)s %(name)s: %(message)s"))
+        logging.basicConfig(level=logging.WARNING, handlers=[handler])
+
+
 def _report(error: FootfallError, wants_json: bool) -> None:
-    if wants_json:
+    if wants_json and error.where != UNWRITABLE:
         write(sys.stdout, json.dumps({"error": error.sentence, "where": error.where}) + "\n")
     else:
         note(error.sentence)

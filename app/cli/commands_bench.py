@@ -10,7 +10,8 @@ from app.bench.solvers.fastest_grid import bench_fastest_grid
 from app.cli.bench_options import GRID, MOVES, PHYSICS, add_bench_options, grid_of, reports_of
 from app.cli.common.command import set_command
 from app.cli.common.output import INTERRUPTED, end_on_signals, note, show
-from app.cli.fastest_search import end_progress, show_progress
+from app.cli.common.progress import clear_line
+from app.cli.fastest_search import show_progress
 from app.common.json import Json
 from core.errors import InputError
 
@@ -62,7 +63,7 @@ def run_bench(options: Namespace) -> int:
             )
     content: Json = {"conditions": where, "results": results}
     if was_interrupted:
-        end_progress()
+        clear_line()
         note("Interrupted. What was measured by then:")
         content |= {"error": "Interrupted.", "where": "command"}
     show(options, content, lines)

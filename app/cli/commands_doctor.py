@@ -2,8 +2,6 @@
 
 import getpass
 import os
-import shutil
-import socket
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
@@ -13,11 +11,14 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from app.bridge.transport import serial_devices
+from app.cli.common.argument_types import whole
 from app.cli.common.command import set_command
 from app.cli.common.output import NOT_FIT, show
 from app.common.version import VERSION
 from app.store.folder_lock import studio_address
-from app.store.gait_files import GaitFiles, default_data_folder, require_folder
+from app.store.gait_files import default_data_folder
+from app.studio.start_check import check_start
+from core.data.tables import package_files
 from core.errors import FootfallError
 from core.gait.gait import motion_problem
 from core.library.library import optimised_entry
@@ -66,22 +67,30 @@ class Diagnosis:
 
 def doctor_command(parser: ArgumentParser) -> None:
     """Makes the parser of `doctor`."""
-    text = "Look at Python, solvers, port, serial devices and data folder, and say what to do about each."
+    text = (
+        "Look at Python, solvers, page, port, serial devices and data folder, and say what to do about each; "
+        "tries what serve does, and leaves nothing behind."
+    )
     set_command(parser, run_doctor, text)
-    parser.add_argument("--data", type=Path, default=None, help="data folder")
+    add = parser.add_argument
+    add("--host", default="127.0.0.1", help="address that the studio is to listen on (default 127.0.0.1)")
+    add("--port", type=whole(1, 65535), default=None, help=f"its port (default {PORT})")
+    add("--data", type=Path, default=None, help="data folder")
 
 
 def run_doctor(options: Namespace) -> int:
     """Looks at Python, libraries, solvers, port, serial devices and the data folder."""
     folder = (options.data or default_data_folder()).expanduser()
+    address = _address(folder)
     found = [
         _python(),
         *(_library(name, use) for name, use in _LIBRARIES.items()),
         _solver("live optimiser", lambda: solve_live(_problem()).status),
         _solver("exact optimiser", lambda: solve_motion(_problem()).status),
-        _port(folder),
+        _page(),
+        _port(options, address),
         *_serial(),
-        _data(folder),
+        _data(folder, address),
     ]
     has_passed = all(one.state is not State.ERROR for one in found)
     content = {"version": VERSION, "passed": has_passed, "checks": [asdict(one) for one in found]}
@@ -128,20 +137,31 @@ def _solver(name: str, solve: Callable[[], SolveStatus]) -> Diagnosis:
     return Diagnosis(name, State.ERROR, f"answers “{status.value}” for the walk.", remedy)
 
 
-def _port(folder: Path) -> Diagnosis:
+def _page() -> Diagnosis:
+    """The page, put together as the studio does."""
+    from app.web.page import ModulePage
+
     try:
-        address = studio_address(folder)
-    except FootfallError:
-        address = None
+        state = ModulePage(Path(str(package_files("app").joinpath("static")))).now()
+    except OSError as error:
+        remedy = "Install the program again, as README says."
+        return Diagnosis("page", State.ERROR, f"cannot be read: {error}.", remedy)
+    return Diagnosis("page", State.OK, f"{len(state.stamps)} files.")
+
+
+def _port(options: Namespace, address: str | None) -> Diagnosis:
+    """The port, opened as the studio does."""
     if address is not None:
         return Diagnosis("studio", State.OK, f"running at {address}.")
-    with socket.socket() as probe:
-        try:
-            probe.bind(("127.0.0.1", PORT))
-        except OSError:
-            remedy = f"Another program uses it: start the studio with --port {PORT + 1}."
-            return Diagnosis("studio", State.WARNING, f"not running; port {PORT} is busy.", remedy)
-    return Diagnosis("studio", State.OK, f"not running; port {PORT} is free.")
+    # The web server takes a second to load; it has to load for the studio too.
+    from app.server.launch import listen
+
+    try:
+        listen(options.host, options.port or PORT).close()
+    except FootfallError as refusal:
+        state = State.WARNING if options.port is None else State.ERROR
+        return Diagnosis("studio", state, f"not running. {refusal.sentence}")
+    return Diagnosis("studio", State.OK, f"not running; port {options.port or PORT} is free.")
 
 
 def _serial() -> Iterator[Diagnosis]:
@@ -167,16 +187,27 @@ def _group(device: str) -> str:
         return "dialout"
 
 
-def _data(folder: Path) -> Diagnosis:
-    if not folder.exists():
-        return Diagnosis("data folder", State.OK, f"{folder} does not exist yet; the studio makes it.")
+def _address(folder: Path) -> str | None:
+    """Where the studio of the data folder is running; None where none is, or nobody can know."""
     try:
-        require_folder(folder)
-        count = len(GaitFiles(folder).ids())
+        return studio_address(folder)
+    except FootfallError:
+        return None
+
+
+def _data(folder: Path, address: str | None) -> Diagnosis:
+    """The data folder, opened as the studio does; one that a studio has open is left to it."""
+    if address is not None:
+        return Diagnosis("data folder", State.OK, f"{folder}, open in the studio at {address}.")
+    try:
+        found = check_start(folder)
     except FootfallError as refusal:
         return Diagnosis("data folder", State.ERROR, refusal.sentence)
-    free = shutil.disk_usage(folder).free
-    sentence = f"{folder}, {count} saved gaits, {free / 1e9:.1f} GB free."
-    if free < LEAST_FREE:
+    sentence = f"{folder}, {found.gaits} saved gaits, {found.free / 1e9:.1f} GB free."
+    if found.is_new:
+        sentence += " It does not exist yet; the studio makes it, which was tried."
+    if found.is_outdated:
+        sentence += " The next start brings its database up to date and keeps a backup of it."
+    if found.free < LEAST_FREE:
         return Diagnosis("data folder", State.WARNING, sentence, "Free some space on the disk.")
     return Diagnosis("data folder", State.OK, sentence)

@@ -2,7 +2,6 @@
 
 import json
 import math
-import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from contextlib import closing, suppress
@@ -11,14 +10,22 @@ from pathlib import Path
 
 from app.cli.common.argument_types import add_robot, foot_order, free_or, number, turn_or_side, whole, zero_or
 from app.cli.common.command import set_command
-from app.cli.common.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
+from app.cli.common.output import (
+    INFEASIBLE,
+    NOT_FIT,
+    end_on_signals,
+    note,
+    show,
+    written_lines,
+)
+from app.cli.common.progress import clear_line, rewrite_line
 from app.cli.fastest_search import search_lines, show_progress
 from app.cli.gait_options import named_gait
 from app.common.json import Json
 from app.documents.gait_json import gait_content
 from app.export.way_files import write_pose_gait
 from app.fastest.search import Searched, chosen_gait, search_content, searched
-from app.store.plain_file import write_atomically
+from app.store.named_file import form_of, write_named
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
 from core.gait.poses import MOST_SWAY, POSE_LIMITS, Poses
@@ -118,21 +125,22 @@ def run_fastest(options: Namespace) -> int:
     """Finds the walk with the most millimetres a robot second, and writes its waypoints."""
     end_on_signals()
     name, document = fastest_document(options)
-    if options.output is not None and options.output.suffix not in (".csv", ".json"):
+    form = None if options.output is None else form_of(options.output, (".csv", ".json"))
+    if options.output is not None and form is None:
         raise InputError(
             f"{options.output} is neither a waypoint file nor a gait file; end its name in .csv or .json.",
             "-o",
         )
     document, walk, found = fastest_walk(options, name, document)
     problem = pose_problem(document, load_robot(document.robot))
-    written = None
+    written: Path | None = None
     if options.output is not None and walk.walk.gait is not None and walk.status is SolveStatus.SOLVED:
-        if options.output.suffix == ".json":
+        if form == ".json":
             content = gait_content(with_poses(document, walk.walk.gait))
-            write_atomically(options.output, json.dumps(content, ensure_ascii=False) + "\n")
+            write_named(options.output, json.dumps(content, ensure_ascii=False) + "\n")
         else:
             write_pose_gait(options.output, walk.walk.gait, _origin(walk))
-        written = str(options.output)
+        written = options.output
     if not problem.model.wired:
         note(f"The firmware timing of {problem.model.title} is not known. Times are as for the DeltaWalker.")
     content, lines = walk_content(walk, problem, written), _lines(walk, written)
@@ -270,24 +278,20 @@ def _waited(solver: PoseGaitSolver, problem: PoseProblem, what: str) -> PoseResu
             with suppress(TimeoutError):
                 return search.result(TICK_SECONDS)
     finally:
-        if sys.stderr.isatty():
-            sys.stderr.write("\r\033[K")
+        clear_line()
 
 
 def _progress(what: str) -> Callable[[PoseProgress], None]:
     """Shows the stages to a person at a terminal."""
-    if not sys.stderr.isatty():
-        return lambda known: None
 
     def tell(known: PoseProgress) -> None:
         pace = "" if known.speed is None else f", {motion_words(known.speed, known.turn_rate or 0.0)} so far"
-        sys.stderr.write(f"\r\033[K{what}: {known.stage}{pace}")
-        sys.stderr.flush()
+        rewrite_line(f"{what}: {known.stage}{pace}")
 
     return tell
 
 
-def walk_content(walk: FastestWalk, problem: PoseProblem, written: str | None) -> Json:
+def walk_content(walk: FastestWalk, problem: PoseProblem, written: Path | None) -> Json:
     """A walk as JSON content, SI."""
     cycle, whole = walk.cycle.gait, walk.walk.gait
     checks = [result.check for result in (walk.cycle, walk.walk) if result.check is not None]
@@ -314,11 +318,11 @@ def walk_content(walk: FastestWalk, problem: PoseProblem, written: str | None) -
         "stop_seconds": max(check.figures.stop_seconds for check in checks) if solved else None,
         "solve_seconds": walk.cycle.solve_seconds + (0.0 if whole is None else walk.walk.solve_seconds),
         "explanation": list(walk.explanation),
-        "waypoints": written,
+        "waypoints": None if written is None else str(written),
     }
 
 
-def _lines(walk: FastestWalk, written: str | None) -> list[str]:
+def _lines(walk: FastestWalk, written: Path | None) -> list[str]:
     cycle, whole, check = walk.cycle.gait, walk.walk.gait, walk.walk.check
     if cycle is None or whole is None or check is None or walk.status is not SolveStatus.SOLVED:
         return [f"No walk ({walk.status.value}).", *walk.explanation]
@@ -335,7 +339,7 @@ def _lines(walk: FastestWalk, written: str | None) -> list[str]:
         f"{check.figures.arm_distance * 1000:.1f} mm apart, standing feet within "
         f"{check.figures.slip * 1000:.2f} mm; Stop takes effect within {check.figures.stop_seconds:.1f} s.",
     ]
-    return lines if written is None else [*lines, f"Wrote {written}."]
+    return [*lines, *written_lines(written, has_companion=written is not None and written.suffix != ".json")]
 
 
 def _distance(way: float, turn: float) -> str:

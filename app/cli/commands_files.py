@@ -1,7 +1,7 @@
 """`export` and `import`."""
 
 import json
-import sys
+import os
 from argparse import ArgumentParser, Namespace
 from dataclasses import replace
 from functools import partial
@@ -10,7 +10,7 @@ from pathlib import Path
 from app.cli.commands_gait import optimise
 from app.cli.common.argument_types import number, one_of, words_of
 from app.cli.common.command import set_command
-from app.cli.common.output import end_on_signals, note, show, write
+from app.cli.common.output import end_on_signals, note, show, show_file, written_lines
 from app.cli.common.within_stroke import add_within_stroke, require_within
 from app.cli.gait_motion import poses_of
 from app.cli.gait_options import Method
@@ -20,12 +20,17 @@ from app.documents.trajectory_json import trajectory_content
 from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, export
 from app.export.import_gait import gait_of_recording, read_gait
 from app.export.source import Exportable, exportable_file, exportable_plan, recording_of_npz
-from app.export.trajectory_files import companion_path, read_text, read_whole_text
+from app.export.trajectory_files import (
+    companion_path,
+    read_text,
+    read_whole_text,
+    write_with_companion,
+)
 from app.plans.make_plan import make_plan
 from app.plans.plan import Plan
 from app.plans.sequence_plan import sequence_plan
 from app.store.gait_files import GaitFiles, default_data_folder
-from app.store.plain_file import write_atomically
+from app.store.named_file import is_plain, write_named
 from core.arrays import Floats
 from core.errors import InputError
 from core.gait.gait import Gait
@@ -71,26 +76,27 @@ def run_export(options: Namespace) -> int:
     if output is None and (options.json or form not in _TEXT):
         raise InputError(f"{form} goes into a file; name it with -o, such as -o {file.name}.", "-o")
     if output is None:
-        write(sys.stdout, file.content.decode())
+        show_file(file.content.decode())
         return 0
-    written = [output]
-    if form is ExportFormat.CSV and source.need_motion().is_stated:
-        # First the companion: a trajectory never stands beside one that belongs to another version.
-        written.insert(0, companion_path(output))
-        write_atomically(written[0], export(source, ExportFormat.COMPANION).content)
-    write_atomically(output, file.content)
-    _tell(options, file, written)
+    has_companion = form is ExportFormat.CSV and source.need_motion().is_stated
+    if has_companion:
+        write_with_companion(output, file.content, export(source, ExportFormat.COMPANION).content)
+    else:
+        write_named(output, file.content)
+    _tell(options, file, output, has_companion=has_companion)
     return 0
 
 
-def _tell(options: Namespace, file: ExportedFile, written: list[Path]) -> None:
+def _tell(options: Namespace, file: ExportedFile, output: Path, *, has_companion: bool) -> None:
+    beside = [companion_path(output)] if has_companion and is_plain(output) else []
     content = {
         "format": options.format.value,
         "media_type": file.media_type,
         "bytes": len(file.content),
-        "files": [str(path) for path in written],
+        "files": [str(path) for path in (*beside, output)],
     }
-    show(options, content, [f"Wrote {path}." for path in written])
+    lines = [f"Wrote {path}." for path in beside]
+    show(options, content, lines + written_lines(output, has_companion=has_companion))
 
 
 def _source(options: Namespace) -> Exportable:
@@ -123,7 +129,7 @@ def stored_gait(source: str, folder: Path | None) -> tuple[str, Gait]:
     if path.suffix == ".json":
         return path.name.split(".")[0] or path.stem, parse_gait(read_text(path), path.name)
     data = folder or default_data_folder()
-    if data.exists() and GaitFiles.is_id(source):
+    if os.path.exists(data) and GaitFiles.is_id(source):
         files = GaitFiles(data)
         if files.saved_at(source) is not None:
             return source, files.read(source)
@@ -174,12 +180,12 @@ def run_import(options: Namespace) -> int:
     content = gait_content(described.gait)
     for remark in described.remarks:
         note(remark)
-    clipped = _clipped(described.gait)
+    clipped, text = _clipped(described.gait), json.dumps(content, indent=2, ensure_ascii=False) + "\n"
     if options.output is None and not options.json:
-        write(sys.stdout, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+        show_file(text)
         return 0
     if options.output is not None:
-        write_atomically(options.output, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+        write_named(options.output, text)
     file = None if options.output is None else str(options.output)
     show(
         options,
@@ -189,7 +195,7 @@ def run_import(options: Namespace) -> int:
             "clipped_mm": clipped_content(clipped),
             "file": file,
         },
-        [f"Wrote {options.output}."],
+        written_lines(options.output),
     )
     return 0
 

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 import numpy as np
 
 from app.cli.common.command import set_command
-from app.cli.common.output import INFEASIBLE, end_on_signals, show
+from app.cli.common.output import INFEASIBLE, end_on_signals, show, written_lines
 from app.cli.gait_options import Method, add_gait_options, asked_gait, returns_anew
 from app.common.json import Json
 from app.export.trajectory_files import write_trajectory
@@ -40,7 +40,7 @@ def run_frontier(options: Namespace) -> int:
         "seconds": seconds,
         "trajectory": None if output is None else str(output),
     }
-    show(options, content, [*_lines(content), *([] if output is None else [f"Wrote {output}."])])
+    show(options, content, [*_lines(content), *written_lines(output, has_companion=True)])
     return 0 if frontier.reach > 0 else INFEASIBLE
 
 

@@ -1,6 +1,7 @@
 """`gaits`, `manual` and `optimise`."""
 
 import json
+import os
 import shlex
 from argparse import ArgumentParser, Namespace
 from dataclasses import replace
@@ -10,7 +11,7 @@ from pathlib import Path
 
 from app.cli.common.argument_types import add_robot, number, whole
 from app.cli.common.command import set_command
-from app.cli.common.output import end_on_signals, note, show
+from app.cli.common.output import end_on_signals, note, show, written_lines
 from app.cli.gait_options import SOLVERS, Method, add_gait_options, asked_gait
 from app.common.json import Json
 from app.documents.gait_json import gait_schema, sent_hash
@@ -54,7 +55,7 @@ def run_gaits(options: Namespace) -> int:
     """Lists gaits, or prints the document's schema."""
     if options.schema:
         schema = gait_schema()
-        show(options, schema, [json.dumps(schema, indent=2, ensure_ascii=False)])
+        show(options, schema, json.dumps(schema, indent=2, ensure_ascii=False).split("\n"))
         return 0
     data: Path = options.data or default_data_folder()
     content = [
@@ -102,7 +103,7 @@ def _line(listed: Json) -> str:
 def _saved(data: Path) -> list[tuple[str, Gait]]:
     """Saved gaits; listing makes no folder, and a damaged file is said and left out."""
     rows: list[tuple[str, Gait]] = []
-    if not data.exists():
+    if not os.path.exists(data):  # or nobody may look
         return rows
     files = GaitFiles(data)
     for gait_id in files.ids():
@@ -164,7 +165,7 @@ def run_manual(options: Namespace) -> int:
     lines = [
         f"{gait.name}: {knots} samples, {motion.trajectory.times[-1]:.1f} s.",
         f"Standing feet slide up to {slips} mm (feet 1 to {model.leg_count}).",
-        *_written(options.output),
+        *written_lines(options.output, has_companion=True),
     ]
     show(options, content, lines)
     return 0
@@ -172,10 +173,6 @@ def run_manual(options: Namespace) -> int:
 
 def _path(path: Path | None) -> str | None:
     return None if path is None else str(path)
-
-
-def _written(path: Path | None) -> list[str]:
-    return [] if path is None else [f"Wrote {path}."]
 
 
 def optimise(gait: Gait, method: Method = Method.NLP) -> VerifiedResult:
@@ -214,7 +211,8 @@ def run_optimise(options: Namespace) -> int:
         "trajectory": _path(output),
         "remedies": helps,
     }
-    show(options, content, [*_optimise_lines(content), *_remedy_lines(helps), *_written(output)])
+    lines = _optimise_lines(content) + _remedy_lines(helps) + written_lines(output, has_companion=True)
+    show(options, content, lines)
     return EXIT_OF_STATUS[verified.status]
 
 

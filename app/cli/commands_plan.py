@@ -1,6 +1,5 @@
 """`waypoints` and `check`."""
 
-import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -9,7 +8,7 @@ from pathlib import Path
 
 from app.cli.common.argument_types import add_robot, number
 from app.cli.common.command import set_command
-from app.cli.common.output import INFEASIBLE, NOT_FIT, note, show, verdict_lines, write
+from app.cli.common.output import INFEASIBLE, NOT_FIT, note, show, show_file, verdict_lines, written_lines
 from app.cli.common.within_stroke import OPTION, add_within_stroke, kept_within
 from app.common.clipped import clipped_content
 from app.export.trajectory_files import read_trajectory
@@ -73,11 +72,11 @@ def run_waypoints(options: Namespace) -> int:
         "file": None if options.output is None else str(options.output),
     }
     if options.output is None and not options.json:
-        write(sys.stdout, format_waypoint_csv(waypoints))
+        show_file(format_waypoint_csv(waypoints))
         return 0
     lines = [
         f"{waypoints.count} waypoints, about {content['estimated_seconds']:.0f} s on the robot.",
-        f"Wrote {options.output}.",
+        *written_lines(options.output, has_companion=True),
     ]
     show(options, content, lines)
     return 0

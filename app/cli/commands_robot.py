@@ -167,11 +167,11 @@ def run_send(options: Namespace) -> int:
     """Checks, approves and streams a waypoint file as a run that is kept; Ctrl-C is Stop."""
     end_on_signals()
     waypoints, model = read_waypoints(options.file), load_robot("deltawalker")
-    verdict = _verdict(options.file, model, waypoints)
+    verdict, hold_ok = _verdict(options.file, model, waypoints)
     _require_numbers(options.file, verdict)
     if not verdict.passed and options.override is None:
         return _refuse(options, verdict)
-    plan = RunPlan(waypoints, _approval(verdict, options), (True,) * waypoints.count)
+    plan = RunPlan(waypoints, _approval(verdict, options), hold_ok)
     data = (options.data or default_data_folder()).expanduser()
     clears_stop: bool = options.clear_stop
     ended = stream(plan, run_of_file(model, plan, options.file), options.robot, data, clears_stop=clears_stop)
@@ -179,15 +179,22 @@ def run_send(options: Namespace) -> int:
     return INTERRUPTED if ended.is_interrupted else status
 
 
-def _verdict(file: Path, model: RobotModel, waypoints: Waypoints) -> Verdict:
-    """By every rule where the file's companion has the motion, else by what waypoints alone can show."""
+def _verdict(file: Path, model: RobotModel, waypoints: Waypoints) -> tuple[Verdict, tuple[bool, ...]]:
+    """By every rule where the file's companion has the motion, else by what waypoints alone can show.
+
+    Returns:
+        The verdict, and for each waypoint whether all feet are known to be down there.
+    """
+    unknown = (False,) * waypoints.count
     if companion_path(file).exists():
         read = read_way_file(file, model.name)
         for assumption in read.assumptions:
             note(assumption)
         if read.motion is not None:
-            return check_plan(checked_way(model, read.motion, read))
-    return check_waypoints(model, waypoints)
+            checked = checked_way(model, read.motion, read)
+            known = checked.way.hold_ok if checked.way is not None else unknown
+            return check_plan(checked), known
+    return check_waypoints(model, waypoints), unknown
 
 
 def _require_numbers(file: Path, verdict: Verdict) -> None:
@@ -216,7 +223,7 @@ def _approval(verdict: Verdict, options: Namespace) -> Approval:
     """
     name, reason = getpass.getuser(), options.override
     override = None if reason is None else override_all(verdict, reason)
-    note("\n".join(verdict_lines(verdict)))
+    note(*verdict_lines(verdict))
     if not options.yes:
         spite = "" if override is None else f" in spite of errors of {', '.join(override.rules)}"
         note(
@@ -231,7 +238,7 @@ def _approval(verdict: Verdict, options: Namespace) -> Approval:
 def _answer() -> str:
     try:
         return sys.stdin.readline().strip().lower()
-    except OSError:  # the terminal is closed
+    except (OSError, ValueError):  # the terminal is closed; bytes that are no text
         return ""
 
 

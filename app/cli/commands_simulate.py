@@ -1,6 +1,5 @@
 """`simulate`."""
 
-import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Sequence
 from contextlib import closing
@@ -13,6 +12,7 @@ from app.cli.commands_plan import ROBOT, add_way_options
 from app.cli.common.argument_types import add_robot, one_of, whole, words_of
 from app.cli.common.command import set_command
 from app.cli.common.output import NOT_FIT, end_on_signals, note, show, tally
+from app.cli.common.progress import rewrite_line
 from app.cli.common.within_stroke import add_within_stroke, kept_within
 from app.cli.gait_motion import checked_gait
 from app.common.clipped import clipped_content
@@ -174,12 +174,9 @@ def _motion_of_waypoints(path: Path, robot: str | None) -> tuple[RobotModel, Tra
 
 def _progress(what: str) -> Callable[[float], bool]:
     """Shows how far it is to a person at a terminal; never asks for an end."""
-    is_watched = sys.stderr.isatty()
 
     def tell(share: float) -> bool:
-        if is_watched:
-            sys.stderr.write(f"\r{what} {share * 100:3.0f} %" + ("\n" if share >= 1 else ""))
-            sys.stderr.flush()
+        rewrite_line(f"{what} {share * 100:3.0f} %", is_last=share >= 1)
         return True
 
     return tell

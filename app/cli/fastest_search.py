@@ -1,9 +1,8 @@
 """`fastest --search` and `--front` in words: progress, a table, the front."""
 
-import sys
-
 import numpy as np
 
+from app.cli.common.progress import rewrite_line
 from app.fastest.search import Searched, travel_heading
 from core.library.library import order_name
 from core.pose_gaits.pace import pace_rank, pace_words
@@ -13,19 +12,8 @@ from solver_jobs import SearchStep, TriedGait
 
 def show_progress(part: str, step: SearchStep) -> None:
     """Shows a person at a terminal how far a search is."""
-    if not sys.stderr.isatty():
-        return
     fastest = "" if step.fastest is None else f", the fastest yet {_tried_pace(step.fastest)}"
-    sys.stderr.write(f"\r\033[K{part}: {step.done} of {step.count}{fastest}")
-    sys.stderr.write("\n" if step.done == step.count else "")
-    sys.stderr.flush()
-
-
-def end_progress() -> None:
-    """Takes the line of a search that did not end away from a person's terminal."""
-    if sys.stderr.isatty():
-        sys.stderr.write("\r\033[K")
-        sys.stderr.flush()
+    rewrite_line(f"{part}: {step.done} of {step.count}{fastest}", is_last=step.done == step.count)
 
 
 def _tried_pace(tried: TriedGait) -> str:

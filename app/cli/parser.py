@@ -1,10 +1,12 @@
 """The parser of the command line; a command's module is loaded when a line asks for that command."""
 
 import argparse
+import sys
 from collections.abc import Iterable
 from typing import Any, NoReturn
 
 from app.cli.command_groups import COMMANDS, grouped_commands
+from app.cli.common.output import write
 from app.common.named import named
 from app.common.version import VERSION
 from core.errors import InputError
@@ -15,6 +17,9 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{message}. See {self.prog} --help.", "command line")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        write(file or sys.stdout, message)
 
 
 class _CommandParser(_Parser):

@@ -1,7 +1,6 @@
 """A waypoint file on its way to the robot: kept as a run, with its progress told, and stopped by Ctrl-C."""
 
 import secrets
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -16,7 +15,9 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.delivery import HELD_STOP
 from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
 from app.bridge.stop_confirmation import STOP_LIMIT
-from app.cli.common.output import note, write
+from app.cli.common.keyboard import forget_typed, has_typed_line
+from app.cli.common.output import note
+from app.cli.common.progress import end_line, is_watched, rewrite_line
 from app.common.signals import Interrupted, ignore_endings
 from app.emulator.emulated_robot import start_emulator
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
@@ -26,6 +27,7 @@ from app.store.database import Database
 from app.store.gait_files import require_folder
 from core.errors import RobotError, StateError
 from core.robot.model import RobotModel
+from core.running_time import Deadline
 from core.wire.robot_time import move_estimates
 
 READY_SECONDS = 20.0
@@ -40,6 +42,7 @@ STOP_HELD = (
     "The robot holds a stop from before this run, so nothing moved. The stop is still active. Find out who "
     "stopped the robot, and why. To lift the stop and send the file, add --clear-stop."
 )
+_NOBODY_THERE = "The run had paused with all feet down, but nobody at a keyboard could resume it."
 _ENDS = frozenset({RobotState.DONE, RobotState.STOPPED, RobotState.FAULT})
 
 
@@ -161,18 +164,21 @@ class Sending:
 
     def stop(self) -> RobotSnapshot:
         """Stops the robot, waits until it has confirmed that, and says what happened."""
-        before = self._bridge.snapshot
-        self._bridge.stop(self._by)
-        note("Stop was sent; it takes effect after the move that is running.")
-        deadline = time.monotonic() + STOP_SECONDS
-        while self._bridge.snapshot.robot is RobotState.STOPPING and time.monotonic() < deadline:
-            self._step()
-        after = self._bridge.snapshot
+        before, after = self._bridge.snapshot, self._stopped(self._by)
         what = "nothing was sent"
         if before.run is not None:
             what = f"{before.run.reached} of {before.run.count} waypoints were reached"
             what += "" if before.robot in IN_RUN else ", and the run had ended"
         return replace(after, sentence=f"Interrupted: {what}. {after.sentence}")
+
+    def _stopped(self, by: str) -> RobotSnapshot:
+        """Stops the robot and waits until it has confirmed that."""
+        self._bridge.stop(by)
+        note("Stop was sent; it takes effect after the move that is running.")
+        deadline = Deadline(STOP_SECONDS, time.monotonic)
+        while self._bridge.snapshot.robot is RobotState.STOPPING and not deadline.is_over:
+            self._step()
+        return self._bridge.snapshot
 
     def _send(self) -> RobotSnapshot:
         self._wait_ready()
@@ -185,15 +191,33 @@ class Sending:
                 self._progress.tell(snapshot)
                 if snapshot.robot in _ENDS or snapshot.link is LinkState.LOST:
                     return snapshot
+                if snapshot.robot is RobotState.PAUSED and not self._goes_on(snapshot):
+                    stopped = self._stopped("the program")
+                    return replace(stopped, sentence=f"{stopped.sentence} {_NOBODY_THERE}")
                 self._step()
         finally:
             self._progress.end()
 
+    def _goes_on(self, paused: RobotSnapshot) -> bool:
+        """Waits until a person at the keyboard resumes a paused run, or it ends; false where nobody can."""
+        if not forget_typed():
+            return False
+        self._progress.end()
+        note(f"{paused.sentence} Press Enter to resume, or Ctrl-C to stop.")
+        while self._bridge.snapshot.robot is RobotState.PAUSED:
+            self._step()
+            if has_typed_line():
+                try:
+                    self._bridge.resume(self._by)
+                except StateError as refused:
+                    note(refused.sentence)
+        return True
+
     def _wait_ready(self) -> None:
-        deadline = time.monotonic() + READY_SECONDS
+        deadline = Deadline(READY_SECONDS, time.monotonic)
         while self._bridge.snapshot.robot is not RobotState.DISARMED:
             snapshot = self._bridge.snapshot
-            if time.monotonic() > deadline or snapshot.link is LinkState.LOST:
+            if deadline.is_over or snapshot.link is LinkState.LOST:
                 raise RobotError(
                     f"No robot answered within {READY_SECONDS:.0f} s: {snapshot.sentence}", "--robot"
                 )
@@ -201,12 +225,12 @@ class Sending:
 
     def _clear(self) -> None:
         """Clears a stop as soon as the robot has confirmed it and stands still."""
-        deadline = time.monotonic() + CLEAR_SECONDS
+        deadline = Deadline(CLEAR_SECONDS, time.monotonic)
         while True:
             try:
                 return self._bridge.clear(self._by)
             except StateError:
-                if time.monotonic() > deadline:
+                if deadline.is_over:
                     raise
             self._step()
 
@@ -224,7 +248,7 @@ class Progress:
 
     def __init__(self, plan: RunPlan) -> None:
         self._estimates = move_estimates(plan.waypoints)
-        self._is_terminal = sys.stderr.isatty()
+        self._is_terminal = is_watched()
         self._told: tuple[RobotState, RunPhase, int] | None = None
         self._told_at = 0.0
 
@@ -240,14 +264,14 @@ class Progress:
         self._told, self._told_at = news, now
         text = f"{snapshot.robot}: {self._place(run)}"
         if self._is_terminal:
-            write(sys.stderr, f"\r\x1b[K{text}")
+            rewrite_line(text)
         else:
             note(text)
 
     def end(self) -> None:
         """Ends the line."""
         if self._is_terminal and self._told is not None:
-            write(sys.stderr, "\n")
+            end_line()
 
     def _place(self, run: RunProgress) -> str:
         left = float(self._estimates[run.reached :].sum())

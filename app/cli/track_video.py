@@ -1,10 +1,10 @@
 """Foot tracks out of videos for the command line, with progress on standard error."""
 
-import sys
 from pathlib import Path
 
 from app.cameras.setup_schema import parse_setup
 from app.cli.common.output import note
+from app.cli.common.progress import clear_line, rewrite_line
 from app.export.trajectory_files import read_text
 from app.videos.tracking_service import track_sentence
 from app.vision.tracking import track_video
@@ -30,17 +30,13 @@ def tracked(path: Path, setup: TrackingSetup) -> FootTrack:
     """
     if not path.exists():
         raise InputError(f"There is no file {path}.", str(path))
-    is_shown = sys.stderr.isatty()
 
     def progress(share: float) -> bool:
-        if is_shown:
-            sys.stderr.write(f"\r{path}: {share:4.0%} tracked")
-            sys.stderr.flush()
+        rewrite_line(f"{path}: {share:4.0%} tracked")
         return True
 
     found = track_video(path, setup, progress)
-    if is_shown:
-        sys.stderr.write("\r\033[K")
+    clear_line()
     if found is None:
         raise InputError(f"{path} was not tracked to its end.", str(path))
     note(f"{path}: {track_sentence(found)}")

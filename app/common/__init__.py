@@ -1,1 +1,1 @@
-"""Small values that every folder of app may use: the version, free names, JSON without infinities."""
+"""Small values that every folder of app may use: version, clocks, free names, JSON without infinities."""

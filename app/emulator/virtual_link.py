@@ -42,7 +42,7 @@ class VirtualLink:
         self.to_robot: Callable[[bytes], bytes] = bytes
         self.from_robot: Callable[[bytes], bytes] = bytes
         self.gate = WriteGate(lambda way, data, _: self.log.append((way, data)), lambda: self.now)
-        self.machine = RobotStateMachine(self.gate)
+        self.machine = RobotStateMachine(self.gate, lambda: self.now)
         self.troubles = Troubles(self.firmware, self._pull, seed)
         self._plugged = True
         self._program = self.firmware.run()
@@ -55,7 +55,7 @@ class VirtualLink:
     @property
     def snapshot(self) -> RobotSnapshot:
         """Everything there is to show, now."""
-        return self.machine.snapshot(self.now)
+        return self.machine.snapshot()
 
     @property
     def strokes_mm(self) -> list[float]:

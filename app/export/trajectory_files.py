@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from app.store.plain_file import write_atomically
+from app.store.named_file import write_named
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.motion.trajectory_npz import MotionFile, parse_npz
@@ -42,6 +42,15 @@ def read_whole_text(path: Path) -> str:
 def companion_path(path: Path) -> Path:
     """`X.footfall.json` beside `X.csv`."""
     return path.with_name(path.stem + COMPANION_SUFFIX)
+
+
+def write_with_companion(path: Path, content: str | bytes, companion: str | bytes) -> None:
+    """Writes a file that a person names, and beside a plain one its companion, each whole or not at all.
+
+    What is no plain file, such as /dev/stdout or a pipe, has no place beside it, and gets no companion.
+    """
+    beside = companion_path(path)
+    write_named(path, content, lambda: write_named(beside, companion))
 
 
 def read_trajectory(path: Path) -> TrajectoryFile:
@@ -86,10 +95,9 @@ def require_world_frame(trajectory: Trajectory, name: str) -> None:
 
 
 def write_trajectory(path: Path, trajectory: Trajectory, robot: str) -> None:
-    """Writes a trajectory CSV and its companion, which names the robot, each whole or not at all."""
+    """Writes a trajectory CSV and its companion, which names the robot (see `write_with_companion`)."""
     text = format_trajectory_csv(trajectory)
-    write_atomically(path, text)
-    write_atomically(companion_path(path), format_companion(trajectory, text, robot))
+    write_with_companion(path, text, format_companion(trajectory, text, robot))
 
 
 def read_motion_npz(path: Path) -> MotionFile:

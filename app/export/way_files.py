@@ -5,8 +5,7 @@ from pathlib import Path
 
 from app.common.clipped import clipped_content, clipped_from_content
 from app.common.json import Json
-from app.export.trajectory_files import companion_path, read_text
-from app.store.plain_file import write_atomically
+from app.export.trajectory_files import companion_path, read_text, write_with_companion
 from core.arrays import Floats
 from core.checks.checked_plan import Beyond, CheckedPlan
 from core.errors import InputError
@@ -103,7 +102,7 @@ def checked_way(model: RobotModel, motion: Trajectory, file: WayFile) -> Checked
 def write_way(
     path: Path, model: RobotModel, motion: Trajectory, way: WaypointPlan, clipped: Floats | None, source: str
 ) -> None:
-    """Writes what is sent of a motion, and beside a plain file its companion, each whole or not at all.
+    """Writes what is sent of a motion, and its companion (see `write_with_companion`).
 
     The companion has the motion too where each sample is a waypoint.
 
@@ -123,13 +122,11 @@ def write_way(
     feet = walker_feet(model, way.waypoints.strokes, motion.pose(model)) if is_whole else None
     there = None if feet is None else replace(motion, feet_world=feet, feet_velocity=None)
     companion = WaypointCompanion(model.name, way.stop_bound, origin, there)
-    write_atomically(path, text)
-    if path.is_file():
-        write_atomically(companion_path(path), format_waypoint_companion(companion, text))
+    write_with_companion(path, text, format_waypoint_companion(companion, text))
 
 
 def write_pose_gait(path: Path, gait: PoseGait, origin: Json) -> None:
-    """Writes a pose gait's waypoints and their companion, each whole or not at all.
+    """Writes a pose gait's waypoints and their companion (see `write_with_companion`).
 
     Args:
         path: the CSV.
@@ -139,5 +136,4 @@ def write_pose_gait(path: Path, gait: PoseGait, origin: Json) -> None:
     problem = gait.problem
     text = format_waypoint_csv(gait.waypoints)
     companion = WaypointCompanion(problem.model.name, problem.bounds.stop_bound, origin, gait.trajectory)
-    write_atomically(path, text)
-    write_atomically(companion_path(path), format_waypoint_companion(companion, text))
+    write_with_companion(path, text, format_waypoint_companion(companion, text))

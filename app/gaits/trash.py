@@ -46,4 +46,4 @@ def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait,
             text = None if gait_id in library() else log.present_document(gait_id)
             name = files.deleted(gait_id).name if text is None else stored_gait(text).gait.name
         found.append(DeletedGait(gait_id, name, files.deleted_at(gait_id)))
-    return tuple(sorted(found, key=lambda gait: gait.when, reverse=True))
+    return tuple(found)

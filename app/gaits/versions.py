@@ -86,7 +86,8 @@ class Versions:
         newest = self._log.newest_version(open_gait.id)
         if newest is not None:
             edits = open_gait.history.last - newest.position
-            recent = self._clock() - newest.made < AUTOMATIC_SECONDS and 0 <= edits < AUTOMATIC_EDITS
+            age = self._clock() - newest.made  # negative where the clock was set back meanwhile
+            recent = 0 <= age < AUTOMATIC_SECONDS and 0 <= edits < AUTOMATIC_EDITS
             if recent or newest.document == open_gait.history.present.document:
                 return None
         return self._row(open_gait, VersionKind.AUTOMATIC, "", "", newest)

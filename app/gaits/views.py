@@ -1,6 +1,6 @@
 """Views of gaits and plans: JSON content for pages and scripts."""
 
-import time
+import itertools
 from dataclasses import asdict, fields
 from datetime import UTC, datetime
 
@@ -32,6 +32,9 @@ from core.pose_gaits.pose_gait import heard_times
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds, move_estimates, stop_time
 from core.wire.waypoint_merging import WaypointPlan
+
+_stamps = itertools.count(1)
+"""A page takes the stamps of a studio that was started again as new ones."""
 
 
 def line_view(
@@ -141,7 +144,7 @@ def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset
     return {
         **line_view(open_gait.id, gait, open_gait.builtin, open_gait.edited, times=times),
         "revision": open_gait.revision,
-        "stamp": time.time_ns() // 1000,  # orders answers and events, which may overtake each other
+        "stamp": next(_stamps),  # orders answers and events, which may overtake each other
         "saved_at": None if saved_at is None else datetime.fromtimestamp(saved_at, UTC).isoformat(),
         **steps_view(open_gait, pages),
         "document": gait_content(gait),

@@ -91,7 +91,7 @@ class JobTracker:
             return
         job = self._job_repository.content(job_id)
         if job["state"] in ("queued", "running"):
-            started = job["started"] or time.time()
+            started = job["started"] or self._job_repository.now(job_id)
             job |= {"state": "running", "started": started, "share": share, "sentence": self._sentence}
             job |= more
             self._shown(job)
@@ -101,6 +101,6 @@ class JobTracker:
         job = self._job_repository.content(job_id)
         if job["state"] == "cancelling" and end["state"] not in ("done", "cancelled"):
             end = {"state": "cancelled", "sentence": "Cancelled."}
-        job |= {**end, "ended": time.time()}
+        job |= {**end, "ended": self._job_repository.now(job_id)}
         self._job_repository.keep(job)
         self._shown(job)

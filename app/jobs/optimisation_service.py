@@ -121,11 +121,12 @@ class OptimisationService:
         if origin is None:
             return None
         content = self._job_repository.content(job.id)
+        now = self._job_repository.now(job.id)
         content |= {
             "state": job.state.value,
             "sentence": job.sentence,
-            "started": job.started,
-            "ended": job.ended,
+            "started": content["started"] or (now if job.state is JobState.RUNNING else None),
+            "ended": now if job.state.value in ENDED else None,
             "progress": [_iterate_content(iterate) for iterate in job.progress],
         }
         try:

@@ -3,9 +3,10 @@
 Only the command queue's thread calls this.
 """
 
-import time
+import itertools
 from typing import Any
 
+from app.common.clock import Span
 from app.common.json import Json
 from app.store.database import Database
 from app.store.storage_errors import left_undone
@@ -34,11 +35,14 @@ class JobRepository:
     """
 
     def __init__(self, database: Database) -> None:
-        self._database = database
+        self._database, self._clock = database, database.clock
+        self._spans: dict[str, Span] = {}
+        self._numbers = itertools.count(1)
         self._contents: dict[str, Json] = {}
         with left_undone("The list of jobs is empty"):
             self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
         for content in self._contents.values():
+            content["number"] = next(self._numbers)
             self._take_back(content)
 
     def begin(self, job_id: str, kind: str, gait_id: str, gait_name: str, motion: str, **more: Any) -> Json:
@@ -55,15 +59,17 @@ class JobRepository:
         Raises:
             StorageError: it cannot be kept; then there is no such job.
         """
+        span = self._clock.start()
         content = {
             "id": job_id,
+            "number": next(self._numbers),  # orders the jobs of one course of the studio
             "kind": kind,
             "gait": gait_id,
             "gait_name": gait_name,
             "motion": motion,
             "state": "queued",
             "sentence": "Waits for a worker.",
-            "created": time.time(),
+            "created": span.started,
             "started": None,
             "ended": None,
             "progress": [],
@@ -72,13 +78,18 @@ class JobRepository:
             **more,
         }
         self._database.put_job(content)
-        self._contents[job_id] = content
+        self._contents[job_id], self._spans[job_id] = content, span
         self._forget_old()
         return content
+
+    def now(self, job_id: str) -> float:
+        """The present time in the course of a job that is on, s since 1970; see `Span`."""
+        return self._spans[job_id].now
 
     def keep(self, content: Json) -> None:
         """Stores a job that has ended; until then it is worth nothing after a restart."""
         if content["state"] in ENDED:
+            self._spans.pop(content["id"], None)
             with left_undone("The end of a job is shown until the studio ends, and not kept"):
                 self._database.put_job(content)
 
@@ -94,7 +105,7 @@ class JobRepository:
         stored = self._database.job(job_id)
         if stored is None:
             raise NotFoundError(f"There is no job “{job_id}”.", job_id)
-        return self._take_back(stored)
+        return self._take_back(stored | {"number": 0})
 
     def contents(self) -> list[Json]:
         """The newest jobs, newest first."""
@@ -104,7 +115,8 @@ class JobRepository:
         """A job from the database: nothing of its course is there, and it is not on any more."""
         content["course"] = 0
         if content["state"] not in ENDED:
-            content |= {"state": "interrupted", "ended": time.time()}
+            begun = content["started"] or content["created"]
+            content |= {"state": "interrupted", "ended": max(begun, self._clock.wall())}
             again = AGAIN.get(content["kind"], "Optimise again.")
             content["sentence"] = f"The studio ended while this job was on. {again}"
             self.keep(content)

@@ -2,11 +2,11 @@
 
 import logging
 import threading
-import time
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from app.common.clock import Span
 from app.common.json import Json
 from app.learning.parameter_sets import ParameterSet, ParameterSets
 from app.learning.runner import BatchTier, WalkRunner
@@ -36,6 +36,7 @@ class _Work:
     walks: Sequence[Walk]
     physics: PhysicsSet
     runner: WalkRunner
+    span: Span
 
 
 class LearningService:
@@ -50,6 +51,7 @@ class LearningService:
     def __init__(self, database: Database, tiers: Sequence[BatchTier], points: int = POINTS) -> None:
         self.sets = ParameterSets(database)
         self._store = LearningStore(database)
+        self._clock = database.clock
         self._tiers = tiers
         self._points = points
         self._lock = threading.Lock()
@@ -58,7 +60,8 @@ class LearningService:
         with left_undone("Learning that was broken off is not marked so"):
             for content in self._store.found(MOST_SHOWN):
                 if content["state"] == "running":
-                    self._store.put({**content, **INTERRUPTED, "ended": time.time()})
+                    ended = max(content["made"], self._clock.wall())
+                    self._store.put({**content, **INTERRUPTED, "ended": ended})
 
     def start(self, walks: Sequence[Walk], physics: PhysicsSet, by: str, source: str) -> Json:
         """Begins a course.
@@ -75,9 +78,10 @@ class LearningService:
         """
         require_gaits(walks)
         kinds = len({walk.measured.kind for walk in walks})
+        span = self._clock.start()
         content: Json = {
             "id": uuid.uuid4().hex[:12],
-            "made": time.time(),
+            "made": span.started,
             "ended": None,
             "by": by,
             "source": source,
@@ -94,7 +98,7 @@ class LearningService:
             if self._on is not None:
                 raise StateError("Learning is on. Wait for it, or cancel it.", "learning")
             runner = WalkRunner(self._tiers, walks, lambda done: content.update(done=done))
-            work = _Work(content, walks, physics, runner)
+            work = _Work(content, walks, physics, runner, span)
             self._store.put(content)
             self._on = work
             self._thread = threading.Thread(target=self._learn, args=(work,), name="learning", daemon=True)
@@ -167,8 +171,8 @@ class LearningService:
         with self._lock:
             if self._on is None:
                 return None
-            content = dict(self._on.content)
-        return {**content, "left_seconds": _left(content, time.time())}
+            content, seconds = dict(self._on.content), self._on.span.seconds
+        return {**content, "left_seconds": _left(content, seconds)}
 
     def _learn(self, work: _Work) -> None:
         end: Json
@@ -187,12 +191,12 @@ class LearningService:
                 end = (
                     INTERRUPTED if was == "interrupted" else {"state": "cancelled", "sentence": "Cancelled."}
                 )
-            work.content.update(end, ended=time.time())
+            work.content.update(end, ended=work.span.now)
             self._on = None
             self._store.put(work.content)
 
 
-def _left(content: Json, now: float) -> float | None:
+def _left(content: Json, seconds: float) -> float | None:
     """Seconds that a course still takes, as fast as until now; None before its first simulation."""
     done, total = content["done"], content["total"]
-    return None if not done else (now - content["made"]) / done * max(total - done, 0)
+    return None if not done else seconds / done * max(total - done, 0)

@@ -5,6 +5,7 @@ Any thread may ask; nothing here knows the open gaits, and the command queue's t
 
 import itertools
 import logging
+import secrets
 import threading
 import time
 from collections import OrderedDict
@@ -124,7 +125,8 @@ class PatternSearchService:
         self._tiers = tiers
         self._loads = [0] * len(tiers)
         self._tell = tell
-        self._numbers = itertools.count(time.time_ns() // 1_000_000)
+        # Not from 1: a page may still name a search of a studio that has ended.
+        self._numbers = itertools.count(secrets.randbelow(1 << 40))
         self._lock = threading.Lock()
         self._searches: OrderedDict[int, Search] = OrderedDict()
         self._newest: dict[str, Search] = {}

@@ -1,10 +1,10 @@
 """The motor test for pages and scripts: begins it, ends it early, and publishes what it finds."""
 
-import time
 from collections.abc import Callable
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.states import MotorTestProgress, MotorTestState, RobotSnapshot
+from app.common.clock import CLOCK, Clock
 from app.common.json import Json
 from core.errors import StateError
 from core.jog.motor_test import MotorFinding, MotorVerdict
@@ -18,9 +18,12 @@ class MotorTestService:
     Args:
         bridge: the robot.
         publish: told the view whenever it changes.
+        clock: the clocks of the machine.
     """
 
-    def __init__(self, bridge: RobotBridge, publish: Callable[[Json], None]) -> None:
+    def __init__(self, bridge: RobotBridge, publish: Callable[[Json], None], clock: Clock = CLOCK) -> None:
+        self._clock = clock
+        self._span = clock.start()
         self._bridge = bridge
         self._publish = publish
         self._shown: MotorTestProgress | None = None
@@ -60,7 +63,11 @@ class MotorTestService:
 
     def _follow(self, snapshot: RobotSnapshot) -> None:
         if snapshot.motor_test != self._shown:
-            self._shown, self._changed_at = snapshot.motor_test, time.time()
+            was = None if self._shown is None else self._shown.state
+            self._shown = snapshot.motor_test
+            if was is not MotorTestState.RUNNING:
+                self._span = self._clock.start()
+            self._changed_at = self._span.now
             self._publish(self._view(self._shown))
 
     def _view(self, shown: MotorTestProgress | None) -> Json:

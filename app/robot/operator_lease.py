@@ -13,6 +13,7 @@ from app.bridge.states import IN_RUN, LinkState, RobotState
 from app.common.json import Json
 from app.undo.history import SCRIPT, Author
 from core.errors import StateError
+from core.running_time import RunningClock
 
 logger = logging.getLogger(__name__)
 
@@ -34,6 +35,8 @@ class OperatorLease:
         tell_page: sends an event to one page.
         clock: seconds that only grow.
         beat: time between two questions for a sign of life, s.
+        most: the most that counts between two looks, s; a page cannot give a sign of life to a studio that
+            does not run.
     """
 
     def __init__(
@@ -43,11 +46,13 @@ class OperatorLease:
         tell_page: TellPage,
         clock: Callable[[], float] = time.monotonic,
         beat: float = BEAT_SECONDS,
+        most: float = 2 * LOOK_SECONDS,
     ) -> None:
         self._bridge = bridge
         self._changed = changed
         self._tell_page = tell_page
-        self._lease = Lease(clock)
+        self._running = RunningClock(clock, most)
+        self._lease = Lease(self._running)
         self._beat_seconds = beat
         self._lock = threading.Lock()
         self._last_action = object()
@@ -199,6 +204,7 @@ class OperatorLease:
         for number in itertools.count(1):
             if self._closing.wait(self._beat_seconds / looks):
                 return
+            self._running.look()
             try:
                 self._disarm_abandoned()
                 if number % looks == 0:

@@ -51,6 +51,8 @@ class RecordedBridge:
         self.origin: RunOrigin | None = None
         self._recorder = RunRecorder(database, changed)
         self._record: Json | None = None
+        self._clock = database.clock
+        self._span = self._clock.start()
         self._sending = threading.Lock()
         self._recording = threading.Lock()
         self.bridge = RobotBridge(self._recorder.log)
@@ -82,6 +84,7 @@ class RecordedBridge:
 
     def _begin(self, run_plan: RunPlan, kept: RecordedRun, by: str) -> None:
         origin, run_range, before = kept.origin, run_plan.run_range, self.origin
+        self._span = self._clock.start()
         record = {
             "id": origin.run_id,
             "gait": origin.gait,
@@ -90,7 +93,7 @@ class RecordedBridge:
             "by": by,
             "from": run_range.first,
             "iterations": run_range.iterations,
-            "started": time.time(),
+            "started": self._span.started,
             "started_monotonic": time.monotonic(),
             "ended": None,
             "state": "running",
@@ -106,7 +109,7 @@ class RecordedBridge:
         except FootfallError as refusal:
             self._record, self.origin = None, before
             self._recorder.end(
-                {**record, "ended": time.time(), "state": "refused", "sentence": refusal.sentence}
+                {**record, "ended": self._span.now, "state": "refused", "sentence": refusal.sentence}
             )
             raise
 
@@ -128,4 +131,4 @@ class RecordedBridge:
             self._recorder.note(self.bridge.transitions)
             reached = {"reached": run.reached, "count": run.count, "seconds": run.elapsed}
             state = {"state": run_end(snapshot, run), "sentence": snapshot.sentence}
-            self._recorder.end({**record, **reached, **state, "ended": time.time()})
+            self._recorder.end({**record, **reached, **state, "ended": self._span.now})

@@ -2,7 +2,6 @@
 
 import secrets
 import threading
-import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import ExitStack, contextmanager
@@ -20,6 +19,7 @@ from app.robot.operator_lease import OperatorLease, TellPage
 from app.robot.ports import RobotPorts
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
 from app.robot.run_summary import run_summary, unwired
+from app.robot.transition_times import TransitionTimes
 from app.robot.views import EMULATOR, RunOrigin, allowed, robot_view
 from app.runs.plan_json import run_plan_content
 from app.store.database import Database
@@ -72,7 +72,8 @@ class RobotService:
         self._changed = changed
         self.ports = ports
         self.lease = OperatorLease(self.bridge, self._show, tell_page)
-        self.bridge.subscribe(lambda snapshot: self._changed(self.view(snapshot)))
+        self._log_times = TransitionTimes(database.clock)
+        self.bridge.subscribe(self._follow)
 
     def close(self) -> None:
         """Stops a run, closes the line and ends the emulated robot."""
@@ -109,10 +110,10 @@ class RobotService:
 
     def transitions(self) -> list[Json]:
         """The last changes of link and robot with their causes, oldest first; `at` is seconds since 1970."""
-        offset = time.time() - time.monotonic()
+        changes = self.bridge.transitions
         return [
-            {"at": one.time + offset, "link": one.link.value, "robot": one.robot.value, "cause": one.cause}
-            for one in self.bridge.transitions[-MOST_SHOWN:]
+            {"at": at, "link": one.link.value, "robot": one.robot.value, "cause": one.cause}
+            for one, at in list(zip(changes, self._log_times.of(changes), strict=True))[-MOST_SHOWN:]
         ]
 
     def disconnect(self, author: Author) -> bool:
@@ -241,6 +242,10 @@ class RobotService:
             "record_trouble": self._recorded_bridge.trouble,
             "lease": self.lease.view(),
         }
+
+    def _follow(self, snapshot: RobotSnapshot) -> None:
+        self._log_times.of(self.bridge.transitions)
+        self._changed(self.view(snapshot))
 
     def _show(self) -> None:
         self._changed(self.view())

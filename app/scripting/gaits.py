@@ -20,7 +20,7 @@ from app.export.svg import svg
 from app.scripting.html import table
 from app.scripting.options import command_options
 from app.store.gait_files import GaitFiles, default_data_folder
-from app.store.plain_file import write_atomically
+from app.store.named_file import write_named
 from core.arrays import Bools, Floats
 from core.errors import InputError, NotFoundError
 from core.gait.gait import Gait as Document
@@ -144,7 +144,7 @@ class Gait:
                 "path",
             )
         no_motion = InputError("This form needs no motion.", "plan")
-        write_atomically(file, export(Exportable(file.stem, self.document, no_motion), form).content)
+        write_named(file, export(Exportable(file.stem, self.document, no_motion), form).content)
         return file
 
     def __repr__(self) -> str:

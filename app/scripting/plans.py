@@ -12,14 +12,14 @@ from app.export.formats import ExportFormat, export
 from app.export.gait_diagram import gait_diagram
 from app.export.source import exportable_plan
 from app.export.svg import svg
-from app.export.trajectory_files import companion_path, write_trajectory
+from app.export.trajectory_files import write_trajectory, write_with_companion
 from app.plans.plan import Plan as Made
 from app.plans.plan import PlanSource
 from app.scripting.gaits import Gait
 from app.scripting.html import Cell, paragraph, table
 from app.scripting.plots import motion_figure
 from app.scripting.robots import Robot
-from app.store.plain_file import write_atomically
+from app.store.named_file import write_named
 from core.arrays import Bools, Floats
 from core.errors import CheckError, InfeasibleError, InputError
 from core.motion.trajectory import Trajectory
@@ -174,7 +174,7 @@ class Plan:
         elif file.suffix in _FORMS and self.gait is not None:
             made = Made(PlanSource.OPTIMISED, "", self.robot.model, self.need_motion(), self.need_way(), None)
             source = exportable_plan(file.stem, self.gait.document, made)
-            write_atomically(file, export(source, _FORMS[file.suffix]).content)
+            write_named(file, export(source, _FORMS[file.suffix]).content)
         else:
             known = ", ".join((".csv", ".waypoints.csv", *_FORMS))
             raise InputError(f"{file.name}: a plan is written as {known}.", "path")
@@ -185,8 +185,7 @@ class Plan:
         text = format_waypoint_csv(way.waypoints)
         origin = {} if self.gait is None else {"gait": self.gait.name}
         companion = WaypointCompanion(self.robot.name, way.stop_bound, origin, None)
-        write_atomically(file, text)
-        write_atomically(companion_path(file), format_waypoint_companion(companion, text))
+        write_with_companion(file, text, format_waypoint_companion(companion, text))
 
     def plot(self) -> Figure:
         """Draws foot heights, stability margin and strokes over time, by matplotlib.

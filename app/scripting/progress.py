@@ -16,7 +16,7 @@ def _bar(what: str) -> Any:
             from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
     except ImportError:
         return None
-    is_watched = sys.stderr.isatty() or "ipykernel" in sys.modules
+    is_watched = (sys.stderr is not None and sys.stderr.isatty()) or "ipykernel" in sys.modules
     return tqdm(total=100, desc=what, unit="%", leave=False, disable=not is_watched)
 
 

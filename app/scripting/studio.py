@@ -5,7 +5,6 @@ from __future__ import annotations
 import atexit
 import json
 import subprocess
-import sys
 import tempfile
 import time
 import urllib.error
@@ -16,6 +15,7 @@ from http.client import HTTPException
 from pathlib import Path
 from urllib.parse import quote
 
+from app.common.own_command import own_command
 from app.documents.gait_json import gait_content
 from app.scripting.gaits import Gait, gait
 from app.scripting.plans import Plan
@@ -25,10 +25,6 @@ from core.errors import InputError, StateError
 
 ANSWER_SECONDS, START_SECONDS, LOOK_SECONDS = 30.0, 60.0, 0.1
 
-_ROOT = Path(__file__).resolve().parents[2]
-_BEGIN = (
-    f"import sys; sys.path.insert(0, {str(_ROOT)!r}); from footfall.app.cli import main; sys.exit(main())"
-)
 _ours: list[subprocess.Popen[bytes]] = []
 """The studios that this program has started."""
 _shown: dict[tuple[Path, str], str] = {}
@@ -117,7 +113,7 @@ def _sentence(error: urllib.error.HTTPError) -> str:
 
 def _started(folder: Path) -> str:
     """Starts a studio of our own, on a free port; it ends with this program, and no sooner."""
-    words = [sys.executable, "-c", _BEGIN, "serve", "--no-browser", "--port", "0", "--data", str(folder)]
+    words = own_command("serve", "--no-browser", "--port", "0", "--data", str(folder))
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=said, process_group=0)
         deadline = time.monotonic() + START_SECONDS

@@ -67,7 +67,7 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
     require_folder(options.data)
     with (
         contextlib.closing(StudioLock(options.data)) as lock,
-        contextlib.closing(_listen(options.host, options.port)) as listening,
+        contextlib.closing(listen(options.host, options.port)) as listening,
     ):
         lock.tell(_url(options.host, listening.getsockname()[1], None))
         studio = Studio(options.data, options.device, options.cameras)
@@ -96,7 +96,12 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
             scenes.stop()
 
 
-def _listen(host: str, port: int) -> socket.socket:
+def listen(host: str, port: int) -> socket.socket:
+    """Opens the port of the studio.
+
+    Raises:
+        InputError: it cannot be used.
+    """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     # The protocol is named so that asyncio sends each answer's pieces at once (TCP_NODELAY): 40 ms a request.
     listening = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)

@@ -1,6 +1,7 @@
 """Backups of the database in the data folder: one a day and one before each migration, each checked."""
 
 import os
+import re
 import shlex
 import shutil
 import sqlite3
@@ -26,12 +27,16 @@ _OLD_SECONDS = 3600.0
 """A backup that was begun so long ago is not being made any more, s."""
 
 
+_NUMBER = re.compile("(?<=[a-z])-([0-9]+)$")
+"""The number of a backup, behind its kind."""
+
+
 @dataclass(frozen=True)
 class Backup:
     """A copy of the database.
 
     Args:
-        path: its file.
+        path: its file; its number orders the backups, whatever the clock was set to.
         made: when, s since the epoch.
         size: bytes.
     """
@@ -39,6 +44,16 @@ class Backup:
     path: Path
     made: float
     size: int
+
+    @property
+    def order(self) -> tuple[int, float, str]:
+        """Sorts backups by when they were made; those without a number are older than all others."""
+        number = _NUMBER.search(self.path.stem)
+        return (int(number.group(1)) if number else 0, self.made, self.path.name)
+
+    def is_of(self, kind: str) -> bool:
+        """Whether it was made for a reason."""
+        return _NUMBER.sub("", self.path.stem).endswith(f"-{kind}")
 
 
 def found_backups(data: Path) -> tuple[Backup, ...]:
@@ -49,7 +64,7 @@ def found_backups(data: Path) -> tuple[Backup, ...]:
             state = path.lstat()
             if stat.S_ISREG(state.st_mode):
                 backups.append(Backup(path, state.st_mtime, state.st_size))
-    return tuple(sorted(backups, key=lambda backup: (backup.made, backup.path.name), reverse=True))
+    return tuple(sorted(backups, key=lambda backup: backup.order, reverse=True))
 
 
 def last_good(data: Path) -> Backup | None:
@@ -89,7 +104,8 @@ def make_backup(database: Path, kind: str) -> Backup:
         StorageError: the disk refuses it.
     """
     folder = database.parent / FOLDER
-    name = f"studio-{time.strftime('%Y-%m-%d-%H%M%S')}-{kind}.sqlite3"
+    number = max((backup.order[0] for backup in found_backups(database.parent)), default=0) + 1
+    name = f"studio-{time.strftime('%Y-%m-%d-%H%M%S')}-{kind}-{number:04d}.sqlite3"
     partial = folder / f".{name}.{os.getpid()}.partial"
     try:
         folder.mkdir(exist_ok=True)
@@ -150,7 +166,7 @@ def _sync(path: Path) -> None:
 
 
 def _rotate(data: Path, kind: str) -> None:
-    kept = [backup for backup in found_backups(data) if backup.path.stem.endswith(f"-{kind}")]
+    kept = [backup for backup in found_backups(data) if backup.is_of(kind)]
     for backup in kept[MOST[kind] :]:
         backup.path.unlink(missing_ok=True)
 

@@ -36,7 +36,7 @@ class CameraSetupStore:
 
     def found(self, *, is_deleted: bool = False) -> tuple[CameraSetupRow, ...]:
         """The newest revision of each setup, the last changed first."""
-        rows = (_row(*row) for row in self._database.rows(_NEWEST + "ORDER BY s.made DESC, s.id"))
+        rows = (_row(*row) for row in self._database.rows(_NEWEST + "ORDER BY s.rowid DESC"))
         return tuple(row for row in rows if row.is_deleted == is_deleted)
 
     def get(self, setup: str, revision: int | None = None) -> CameraSetupRow | None:

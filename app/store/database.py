@@ -12,10 +12,12 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
+from app.common.clock import CLOCK, Clock
 from app.common.json import Json
 from app.store import run_rows
 from app.store.backups import MIGRATION, make_backup, way_back
 from app.store.folder_lock import DatabaseUse
+from app.store.folder_time import FolderTime
 from app.store.schema import bring_up_to_date, is_outdated
 from app.store.storage_errors import storage_error
 from core.errors import StorageDamagedError
@@ -31,9 +33,12 @@ class Database:
 
     Args:
         path: the file; made where it does not exist.
+        clock: the clocks of the machine.
 
     Attributes:
         path: the file.
+        clock: from which whoever keeps something in the database takes its times.
+        folder_time: by which old things in the data folder go.
         damage: says that the file is damaged, and how to get back; nothing is written to it then, since going
             back to a backup would lose it again. None where nothing of the kind is known.
         damaged: called, from any thread, once `damage` is set.
@@ -43,8 +48,9 @@ class Database:
         StorageError: it cannot be read or brought up to date.
     """
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
+    def __init__(self, path: Path, clock: Clock = CLOCK) -> None:
+        self.path, self.clock = path, clock
+        self.folder_time = FolderTime(path.parent, clock)
         self.damage: str | None = None
         self.damaged: Callable[[], None] = lambda: None
         self._lock = threading.Lock()
@@ -122,7 +128,7 @@ class Database:
 
     def jobs(self, most: int = 50) -> list[Json]:
         """The newest jobs, newest first."""
-        rows = self.rows("SELECT content FROM job ORDER BY created DESC LIMIT ?", most)
+        rows = self.rows("SELECT content FROM job ORDER BY rowid DESC LIMIT ?", most)
         return [json.loads(row[0]) for row in rows]
 
     def job(self, job_id: str) -> Json | None:
@@ -134,13 +140,14 @@ class Database:
         """Stores a job as it is now."""
         with self.writing() as connection:
             connection.execute(
-                "INSERT OR REPLACE INTO job VALUES(?,?,?)",
+                "INSERT INTO job(id, created, content) VALUES(?,?,?) "
+                "ON CONFLICT(id) DO UPDATE SET content=excluded.content",
                 (content["id"], content["created"], json.dumps(content, allow_nan=False)),
             )
 
     def runs(self, most: int = 100) -> list[Json]:
         """The newest runs, newest first."""
-        rows = self.rows("SELECT content FROM run ORDER BY started DESC LIMIT ?", most)
+        rows = self.rows("SELECT content FROM run ORDER BY rowid DESC LIMIT ?", most)
         return [json.loads(row[0]) for row in rows]
 
     def put_run(self, content: Json) -> None:

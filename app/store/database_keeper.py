@@ -2,14 +2,15 @@
 
 import logging
 import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from app.common.json import Json
 from app.store.backups import DAILY, found_backups, make_backup
 from app.store.database import Database
 from app.store.quick_check import damage_of
+from app.store.storage_errors import left_undone
 from core.errors import FootfallError, StorageDamagedError, StorageError
 
 logger = logging.getLogger(__name__)
@@ -36,6 +37,7 @@ class DatabaseKeeper:
         self._database = database
         self._changed = changed
         self._may_copy = may_copy
+        self._time = database.folder_time
         self._trouble: str | None = None
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._work, name="database keeper", daemon=True)
@@ -58,6 +60,7 @@ class DatabaseKeeper:
         self._closing.set()
         if self._thread.is_alive():
             self._thread.join()
+            self._keep_time()
 
     def look(self) -> None:
         """Makes a backup where one is due; says why where that fails."""
@@ -66,7 +69,9 @@ class DatabaseKeeper:
         failure = "No backup of the database could be made today."
         try:
             if self._is_due():
+                state = _state_of(self._database.path)
                 make_backup(self._database.path, DAILY)
+                self._time.backed_up(state)
                 self._take_trouble(None)
         except StorageDamagedError as error:
             self._database.take_damage(error.sentence)
@@ -81,6 +86,11 @@ class DatabaseKeeper:
         self.look()
         while not self._closing.wait(LOOK_SECONDS):
             self.look()
+            self._keep_time()
+
+    def _keep_time(self) -> None:
+        with left_undone("How late it is in the data folder is not kept"):
+            self._time.keep()
 
     def _check(self) -> None:
         path = self._database.path
@@ -94,10 +104,10 @@ class DatabaseKeeper:
 
     def _is_due(self) -> bool:
         """Whether there is something new, and the last backup is a day old."""
-        newest = next(iter(found_backups(self._database.path.parent)), None)
-        if newest is None:
+        last = self._time.last_backup
+        if not found_backups(self._database.path.parent) or last is None:
             return True
-        return time.time() >= newest.made + DAY_SECONDS and _changed_at(self._database.path) >= newest.made
+        return self._time.now >= last.time + DAY_SECONDS and _state_of(self._database.path) != last.state
 
     def _take_trouble(self, sentence: str | None) -> None:
         if sentence != self._trouble:
@@ -119,7 +129,7 @@ def _size(database: Path) -> int:
     return sum(path.stat().st_size for path in _files(database))
 
 
-def _changed_at(database: Path) -> float:
-    """When something was written last; an empty file beside the database holds nothing."""
-    states = [path.stat() for path in _files(database)]
-    return max(state.st_mtime for state in states if state.st_size)
+def _state_of(database: Path) -> list[Any]:
+    """Name, size and time of writing of each file; an empty file beside the database holds nothing."""
+    states = [(path.name, path.stat()) for path in _files(database)]
+    return [[name, state.st_size, state.st_mtime_ns] for name, state in states if state.st_size]

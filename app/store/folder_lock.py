@@ -88,7 +88,7 @@ class StudioLock:
 def studio_address(data: Path) -> str | None:
     """Where the studio of a data folder can be reached; None where none is running."""
     path = data / STUDIO
-    if not path.exists():
+    if not os.path.exists(path):  # or nobody may look
         return None
     try:
         _Lock(path, fcntl.LOCK_SH).close()

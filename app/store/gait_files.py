@@ -12,12 +12,15 @@ from pathlib import Path
 from app.documents.gait_json import gait_content
 from app.documents.stored_gait import StoredGait, stored_gait
 from app.store.plain_file import read_plain_file, write_atomically
-from app.store.storage_errors import file_error
+from app.store.storage_errors import file_error, left_undone
 from core.errors import InputError, StorageError
 from core.gait.gait import Gait
 
 MOST_FILE_BYTES = 16_000_000
 """A gait's file of more bytes is not read; indented, the largest document has fewer."""
+
+_ORDER = ".order"
+"""File in the trash: ids of the gaits in it, the last deleted last."""
 
 _ID = re.compile(r"[a-z0-9][a-z0-9-]{0,79}")
 
@@ -143,8 +146,17 @@ class GaitFiles:
         return tuple(sorted(self.stamps()))
 
     def deleted_ids(self) -> tuple[str, ...]:
-        """Ids of gaits in the trash."""
-        return tuple(p.stem for p in self._trash.glob("*.json"))
+        """Ids of gaits in the trash, the last deleted first."""
+        order = {gait_id: place for place, gait_id in enumerate(self._deleted_order())}
+        ids = (path.stem for path in self._trash.glob("*.json"))
+        return tuple(sorted(ids, key=lambda one: (order.get(one, -1), self.deleted_at(one)), reverse=True))
+
+    def _deleted_order(self) -> list[str]:
+        """Ids in the order in which they were deleted; the time of a file is of a clock that may be set."""
+        try:
+            return read_plain_file(self._trash / _ORDER, MOST_FILE_BYTES).decode().split()
+        except (FileNotFoundError, UnicodeDecodeError):
+            return []
 
     def deleted(self, gait_id: str) -> Gait:
         """A gait in the trash.
@@ -195,6 +207,10 @@ class GaitFiles:
     def remove(self, gait_id: str) -> None:
         """Moves a gait's file into the trash, from where it can be restored."""
         _move(self._path(gait_id), self._trash / f"{gait_id}.json")
+        kept = (one for one in self._deleted_order() if one != gait_id)
+        before = [one for one in kept if (self._trash / f"{one}.json").exists()]
+        with left_undone("The order of the deleted gaits is not kept"):
+            write_atomically(self._trash / _ORDER, "\n".join([*before, gait_id]))
 
     def set_aside(self, gait_id: str, write: Callable[[], None]) -> Path:
         """Has another file take a gait's place; what was there is kept, whatever it is.
@@ -211,7 +227,9 @@ class GaitFiles:
         """
         path = self._path(gait_id)
         require_folder(self._aside)
-        kept = self._aside / f"{gait_id}-{time.strftime('%Y-%m-%d-%H%M%S')}-{time.time_ns() % 1000:03}.json"
+        name = f"{gait_id}-{time.strftime('%Y-%m-%d-%H%M%S')}"
+        paths = (self._aside / f"{name}-{number:03}.json" for number in count(1))
+        kept = next(path for path in paths if not path.exists())
         _move(path, kept)
         try:
             write()

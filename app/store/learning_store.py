@@ -21,12 +21,14 @@ class LearningStore:
         with self._database.writing() as connection:
             text = json.dumps(content, allow_nan=False)
             connection.execute(
-                "INSERT OR REPLACE INTO learning VALUES(?,?,?)", (content["id"], content["made"], text)
+                "INSERT INTO learning(id, made, content) VALUES(?,?,?) "
+                "ON CONFLICT(id) DO UPDATE SET content=excluded.content",
+                (content["id"], content["made"], text),
             )
 
     def found(self, most: int) -> list[Json]:
         """The newest courses of learning, the newest first."""
-        rows = self._database.rows("SELECT content FROM learning ORDER BY made DESC, id LIMIT ?", most)
+        rows = self._database.rows("SELECT content FROM learning ORDER BY rowid DESC LIMIT ?", most)
         return [json.loads(row[0]) for row in rows]
 
     def get(self, learning: str) -> Json | None:
@@ -50,7 +52,7 @@ class LearningStore:
         """All sets, or the deleted ones, the newest first."""
         which = "NOT NULL" if deleted else "NULL"
         rows = self._database.rows(
-            f"SELECT content FROM physics_set WHERE deleted IS {which} ORDER BY made DESC, version DESC"
+            f"SELECT content FROM physics_set WHERE deleted IS {which} ORDER BY rowid DESC"
         )
         return [json.loads(row[0]) for row in rows]
 

@@ -27,7 +27,7 @@ class PhotoStore:
     def of_trial(self, trial: str) -> list[Json]:
         """A trial's photos that are not deleted, in the order in which they came."""
         rows = self._database.rows(
-            "SELECT content FROM trial_photo WHERE trial=? AND deleted IS NULL ORDER BY made, id", trial
+            "SELECT content FROM trial_photo WHERE trial=? AND deleted IS NULL ORDER BY rowid", trial
         )
         return [json.loads(row[0]) for row in rows]
 

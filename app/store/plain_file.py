@@ -3,6 +3,7 @@
 import errno
 import os
 import stat
+import threading
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -47,6 +48,8 @@ def read_plain_file(path: Path, most: int) -> bytes:
 def write_atomically(path: Path, content: str | bytes, before: Callable[[], object] = lambda: None) -> None:
     """Writes a file whole or not at all, and on disk when this returns.
 
+    A file that is replaced passes its mode, owner and extended attributes on, as far as this account may.
+
     Args:
         path: the file.
         content: what it holds from then on.
@@ -57,9 +60,13 @@ def write_atomically(path: Path, content: str | bytes, before: Callable[[], obje
         StorageError: the disk does not take it; what was there before is as it was.
         InputError: the file cannot be written there.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    # Fits wherever the name itself fits; each thread has its own.
+    partial = path.with_name(f".{path.name[:40]}.{threading.get_ident():x}.{os.getpid()}.partial")
     try:
-        with partial.open("wb") as file:
+        partial.unlink(missing_ok=True)
+        flags, mode = os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600 if os.path.lexists(path) else 0o666
+        with open(os.open(partial, flags | os.O_CLOEXEC, mode), "wb") as file:
+            _take_over(path, file.fileno())
             file.write(content if isinstance(content, bytes) else content.encode())
             file.flush()
             os.fsync(file.fileno())
@@ -75,6 +82,31 @@ def write_atomically(path: Path, content: str | bytes, before: Callable[[], obje
     finally:
         with suppress(OSError):
             partial.unlink(missing_ok=True)
+
+
+def _take_over(path: Path, file: int) -> None:
+    """Gives an open file what belongs to the plain file in whose place it comes, if there is one."""
+    try:
+        old = path.lstat()
+    except FileNotFoundError:
+        return
+    if not stat.S_ISREG(old.st_mode):
+        return
+    mode = stat.S_IMODE(old.st_mode)
+    if hasattr(os, "fchown"):
+        try:
+            os.fchown(file, old.st_uid, old.st_gid)
+        except OSError:
+            with suppress(OSError):  # the group alone may be given by its members
+                os.fchown(file, -1, old.st_gid)
+        if os.fstat(file).st_gid != old.st_gid:  # another group gets no rights but everybody's
+            mode = mode & ~0o070 | (mode & 0o007) << 3
+    os.chmod(file, mode)
+    if hasattr(os, "listxattr"):
+        with suppress(OSError):  # the file system has none
+            for name in os.listxattr(path, follow_symlinks=False):
+                with suppress(OSError):  # those of the system are its own
+                    os.setxattr(file, name, os.getxattr(path, name, follow_symlinks=False))
 
 
 def _why_not_opened(path: Path, error: OSError) -> str:

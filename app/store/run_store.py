@@ -72,7 +72,7 @@ class RunStore:
         """Some of the runs that a filter leaves, the newest first."""
         where, values = wanted.condition()
         rows = self._database.rows(
-            f"SELECT content, note, deleted FROM run WHERE {where} ORDER BY started DESC LIMIT ? OFFSET ?",
+            f"SELECT content, note, deleted FROM run WHERE {where} ORDER BY rowid DESC LIMIT ? OFFSET ?",
             *values,
             most,
             offset,

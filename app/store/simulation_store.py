@@ -49,7 +49,7 @@ class SimulationStore:
             )
             connection.execute(
                 "DELETE FROM simulation WHERE rowid NOT IN "
-                "(SELECT rowid FROM simulation ORDER BY made DESC LIMIT ?)",
+                "(SELECT rowid FROM simulation ORDER BY rowid DESC LIMIT ?)",
                 (MOST_KEPT,),
             )
 
@@ -63,12 +63,12 @@ class SimulationStore:
 
     def content(self, key: str) -> Json | None:
         """A simulation with its states; None where there is none, or it was long ago."""
-        rows = self._database.rows("SELECT content FROM simulation WHERE key=? ORDER BY made DESC", key)
+        rows = self._database.rows("SELECT content FROM simulation WHERE key=? ORDER BY rowid DESC", key)
         return json.loads(rows[0][0]) if rows else None
 
     def _rows(self, where: str, value: str) -> tuple[SimulationRow, ...]:
         found = self._database.rows(
-            f"SELECT gait, key, waypoints, physics, made FROM simulation WHERE {where} ORDER BY made DESC",
+            f"SELECT gait, key, waypoints, physics, made FROM simulation WHERE {where} ORDER BY rowid DESC",
             value,
         )
         return tuple(SimulationRow(*row) for row in found)

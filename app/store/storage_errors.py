@@ -13,6 +13,7 @@ logger = logging.getLogger(__name__)
 
 FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
 _WRONG_PATH = frozenset({errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP})
+_NO_RIGHT = frozenset({errno.EACCES, errno.EPERM, errno.EROFS})
 
 _RIGHT = "Give yourself the right to write to it and to its folder"
 _DAMAGED = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB})
@@ -71,6 +72,8 @@ def file_error(error: OSError, path: Path) -> StorageError | InputError:
     reason = f"{path} cannot be written: {error.strerror}."
     if error.errno in FULL:
         return StorageFullError(f"{reason} Free space on its disk, then try again.", str(path))
+    if error.errno in _NO_RIGHT:
+        reason += f" {_RIGHT}."
     return InputError(reason, str(path)) if error.errno in _WRONG_PATH else StorageError(reason, str(path))
 
 

@@ -29,7 +29,7 @@ class TrialStore:
     def found(self) -> tuple[TrialRow, ...]:
         """All trials that are not deleted, the newest first."""
         rows = self._database.rows(
-            "SELECT content, track, deleted FROM trial WHERE deleted IS NULL ORDER BY made DESC, id"
+            "SELECT content, track, deleted FROM trial WHERE deleted IS NULL ORDER BY rowid DESC"
         )
         return tuple(_row(*row) for row in rows)
 

@@ -26,7 +26,7 @@ class VideoStore:
         which = "NOT NULL" if is_deleted else "NULL"
         rows = self._database.rows(
             f"SELECT content, deleted FROM video WHERE deleted IS {which} AND (?='' OR run=?) "
-            "ORDER BY made DESC, id",
+            "ORDER BY rowid DESC",
             run,
             run,
         )
@@ -49,7 +49,7 @@ class VideoStore:
         rows = self._database.rows(
             "SELECT json_extract(content, '$.sight.source.video') AS video, id, "
             "json_extract(content, '$.name') FROM trial "
-            "WHERE deleted IS NULL AND video<>'' AND (?='' OR video=?) ORDER BY made DESC, id",
+            "WHERE deleted IS NULL AND video<>'' AND (?='' OR video=?) ORDER BY rowid DESC",
             video,
             video,
         )
@@ -70,11 +70,11 @@ class VideoStore:
             )
 
     def deleted_at(self, video: str) -> float:
-        """When a deleted video was deleted, s since the epoch."""
+        """When a deleted video was deleted, by the folder's time (see `FolderTime`), s."""
         return float(self._database.rows("SELECT deleted FROM video WHERE id=?", video)[0][0])
 
     def put_deleted(self, video: str, deleted: float | None) -> None:
-        """Takes a video out of every list, or brings it back with None; its file stays."""
+        """Takes a video out of every list at a folder's time, or brings it back with None; its file stays."""
         with self._database.writing() as connection:
             connection.execute("UPDATE video SET deleted=? WHERE id=?", (deleted, video))
 

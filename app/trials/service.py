@@ -93,7 +93,7 @@ class TrialService:
             "id": uuid.uuid4().hex[:12],
             "made": time.time(),
             **vars(words),
-            "frame_rate": float(1.0 / np.median(np.diff(track.times))),
+            "frame_rate": track.frame_rate,
             "ends": None,
             "plan": None if planned is None else _kept_plan(planned),
             "sight": None if track_record is None else track_record.content(),

@@ -20,7 +20,6 @@ MOST_RECORDED = 20_000_000_000
 """Bytes of all recordings together; then the oldest ones go."""
 
 _ENDING = re.compile(r"\.[a-z0-9]{1,5}")
-_HEAD = 1024
 
 
 class Upload:
@@ -34,7 +33,6 @@ class Upload:
     def __init__(self, partial: Path, name: str) -> None:
         self.partial, self.name = partial, name
         self.size = 0
-        self._head = b""
         self._hash = hashlib.sha256()
         self._file = partial.open("wb")
 
@@ -49,8 +47,6 @@ class Upload:
         self._hash.update(data)
         if self.size > MOST_BYTES:
             raise too_large(self.size)
-        if len(self._head) < _HEAD:
-            self._head += data[: _HEAD - len(self._head)]
         try:
             self._file.write(data)
         except OSError as error:
@@ -65,7 +61,6 @@ class Upload:
         """Ends the writing.
 
         Raises:
-            InputError: what came is empty or text.
             StateError: the disk does not take the last bytes.
         """
         try:
@@ -74,10 +69,6 @@ class Upload:
             self._file.close()
         except OSError as error:
             raise _not_written(error) from error
-        if not self.size:
-            raise InputError(f"{self.name} is empty; choose a video.", "file")
-        if b"\0" not in self._head:
-            raise InputError(f"{self.name} cannot be read as a video.", "file")
 
     def discard(self) -> None:
         """Takes away what was written."""

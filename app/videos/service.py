@@ -7,23 +7,26 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from app.common.json import Json
 from app.store.database import Database
 from app.store.video_store import VideoStore
 from app.videos.files import MOST_RECORDED, Upload, VideoFiles
 from app.vision.frame_source import PICTURES, Facts
 from app.vision.services import VisionServices, VisionTask, ask
-from app.vision.worker import ReadFacts, ReadPicture, Source
+from app.vision.worker import ReadFacts, ReadPicture, ReadTimes, Source
+from core.arrays import Floats
 from core.errors import FootfallError, InputError, NotFoundError, StateError
 
 LOOK_SECONDS = 30.0
 """Longest wait for a picture."""
 
 FACTS_SECONDS = 600.0
-"""Longest wait for a video's facts; the pictures of some are to be counted one by one."""
+"""Longest wait for a video's facts; of a damaged one every picture is looked at."""
 
 MOST_DELETED = 30 * 86_400.0
-"""A deleted video can be restored for so long, s."""
+"""A deleted video can be restored for so long, s of the folder's time (see `FolderTime`)."""
 
 
 class VideoService:
@@ -44,7 +47,7 @@ class VideoService:
         changed: Callable[[Json], None] = lambda view: None,
     ) -> None:
         self.files = VideoFiles(data)
-        self._store = VideoStore(database)
+        self._database, self._store = database, VideoStore(database)
         self._vision = vision
         self._changed = changed
         self._lock = threading.Lock()
@@ -94,6 +97,7 @@ class VideoService:
             content = {
                 **_new(file.partition(".")[0], upload.name, "upload", file),
                 **facts_content(facts),
+                "sentence": facts.remark,
                 "bytes": upload.size,
                 "hash": upload.content_hash,
             }
@@ -156,7 +160,7 @@ class VideoService:
         for content in self._store.found(is_deleted=True):
             if (
                 content["state"] == "kept"
-                and time.time() - self._store.deleted_at(content["id"]) > MOST_DELETED
+                and self._database.folder_time.now - self._store.deleted_at(content["id"]) > MOST_DELETED
             ):
                 self.files.remove(content["file"])
                 self.change(content["id"], state="removed", sentence="It was deleted more than 30 days ago.")
@@ -198,7 +202,7 @@ class VideoService:
         """Takes a video out of the list; `restore` brings it back."""
         if self._known(video)["state"] == "recording":
             raise _still_recorded()
-        self._store.put_deleted(video, time.time())
+        self._store.put_deleted(video, self._database.folder_time.now)
         self._changed(self.view(video))
 
     def restore(self, video: str) -> Json:
@@ -230,7 +234,7 @@ class VideoService:
         content, path = self._known(video), self.path(video)
         number = frame or 0
         if seconds is not None:
-            number = round(seconds * content["rate"])
+            number = self._number_at(video, seconds)
         if content["frames"] and not 0 <= number < content["frames"]:
             raise InputError(
                 f"“{content['name']}” has {content['frames']} pictures, 0 to {content['frames'] - 1}; there "
@@ -238,6 +242,25 @@ class VideoService:
                 "frame",
             )
         return Source(path, number, name=f"picture {number}")
+
+    def times(self, video: str) -> Floats:
+        """(n,) time of each picture after the first, s."""
+        times: Floats = ask(self._vision.interactive, ReadTimes(self.path(video)), LOOK_SECONDS)
+        return times
+
+    def _number_at(self, video: str, seconds: float) -> int:
+        """The picture nearest to a time.
+
+        Raises:
+            InputError: the film is over by then.
+        """
+        times, content = self.times(video), self._known(video)
+        if seconds > times[-1] + 1.0 / max(content["rate"], 1.0):
+            raise InputError(
+                f"“{content['name']}” lasts {times[-1]:.2f} s; there is no picture at {seconds:.2f} s.",
+                "seconds",
+            )
+        return int(np.abs(times - seconds).argmin())
 
     def picture(self, source: Source, most: int | None) -> bytes:
         """A picture as a JPEG file, no wider than so many pixels."""

@@ -149,9 +149,9 @@ def track_figures(trial: str, found: VideoTrack) -> Json:
 
 def track_sentence(found: VideoTrack) -> str:
     """A track in one sentence."""
-    frames = found.track.times.size
+    frames, rate = found.track.times.size, found.track.frame_rate
     return (
-        f"{frames} frames at {found.frame_rate:.1f} a second; {int(found.unseen.sum())} foot positions were "
+        f"{frames} frames at {rate:.1f} a second; {int(found.unseen.sum())} foot positions were "
         f"not seen and {int(found.false.sum())} were false, all filled by straight lines and marked."
         + "".join(f" {remark}" for remark in missing_remarks(found))
     )

@@ -5,7 +5,7 @@ Both files only grow, so that whatever ends the program, what was written before
 """
 
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -114,12 +114,8 @@ class Recording:
             raise InputError(f"The recording {folder.name} holds no picture.", folder.name)
         self._file = (folder / PICTURES).open("rb")
         height, width = self.picture(0).shape[:2]
+        self.times = self._table.times - self._table.times[0]
         self.facts = Facts(self._table.rate, len(self._table.rows), (width, height))
-
-    def counted(self, tell: Callable[[], object] = lambda: None) -> Facts:
-        """What the table says."""
-        del tell
-        return self.facts
 
     def close(self) -> None:
         """Closes the file."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from app.vision.blobs import find_feet
 from app.vision.frame_source import FrameSource
 from app.vision.recording_file import Recording
-from app.vision.video_io import VideoFile
+from app.vision.video_file import VideoFile
 from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.vision.outliers import find_outliers
@@ -39,24 +39,28 @@ class VideoTrack:
         track: with its gaps filled and marked.
         unseen: (n, feet) no spot of the foot's colour was fit, though another foot is in the picture.
         false: (n, feet) a spot was found where the foot cannot have been.
-        frame_rate: of the video, 1/s.
         missing: (n,) there was no picture, or none of the feet is in it.
+        remark: what is missing of the film, in a sentence; "" where nothing is.
     """
 
     track: FootTrack
     unseen: Bools
     false: Bools
-    frame_rate: float
     missing: Bools
+    remark: str = ""
 
 
-def open_frames(path: Path) -> FrameSource:
-    """A recording's folder or a video file.
+def open_frames(path: Path, tell: Callable[[], object] = lambda: None) -> FrameSource:
+    """Opens a recording's folder or a video file.
+
+    Args:
+        path: of either.
+        tell: called again and again while a long file is looked through.
 
     Raises:
         InputError: it is neither.
     """
-    return Recording(path) if path.is_dir() else VideoFile(path)
+    return Recording(path) if path.is_dir() else VideoFile(path, tell)
 
 
 def track_video(
@@ -88,7 +92,8 @@ def track_video(
                 return None
     finally:
         frames.close()
-    return track_of_pixels(np.array(times), np.array(pixels), setup, path.name)
+    found = track_of_pixels(np.array(times), np.array(pixels), setup, path.name)
+    return replace(found, remark=frames.facts.remark)
 
 
 def track_of_pixels(times: Floats, pixels: Floats, setup: TrackingSetup, name: str) -> VideoTrack:
@@ -114,17 +119,18 @@ def track_of_pixels(times: Floats, pixels: Floats, setup: TrackingSetup, name: s
     missing = np.asarray(unseen.all(axis=1))
     false = find_outliers(every, feet)
     feet[false] = math.nan
-    rate = float(1.0 / np.median(np.diff(times)))
-    return VideoTrack(filled_track(every, feet, name), unseen & ~missing[:, None], false, rate, missing)
+    return VideoTrack(filled_track(every, feet, name), unseen & ~missing[:, None], false, missing)
 
 
 def missing_remarks(found: VideoTrack) -> tuple[str, ...]:
-    """How many of a track's pictures are missing, in a sentence; nothing where none is."""
+    """Sentences about what is missing of a film and how many of its pictures are; nothing where none is."""
+    remarks = (found.remark,) if found.remark else ()
     count = int(found.missing.sum())
     if not count:
-        return ()
+        return remarks
     what = "1 picture is" if count == 1 else f"{count} pictures are"
-    return (f"{what} missing or without any foot; the feet are filled by straight lines there and marked.",)
+    filled = "the feet are filled by straight lines there and marked."
+    return (*remarks, f"{what} missing or without any foot; {filled}")
 
 
 def _usual_about(gaps: Floats) -> Floats:

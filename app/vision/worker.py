@@ -15,7 +15,7 @@ from app.vision.blobs import Blob, Mask, blobs_of, find_feet, in_colours, mask_o
 from app.vision.checkerboard import board_corners, lens_of_corners, straightened
 from app.vision.frame_source import Facts, FrameSource
 from app.vision.tracking import VideoTrack, open_frames, track_video
-from app.vision.video_io import Picture, jpeg, read_picture, scaled, use_one_thread
+from app.vision.video_io import Picture, jpeg, read_picture, scaled, silence_libraries, use_one_thread
 from core.arrays import Floats
 from core.errors import InputError
 from core.vision.camera import BlobLimits, ColourRange, Lens
@@ -59,25 +59,33 @@ class VisionRequest(Protocol):
 
 @dataclass(frozen=True)
 class ReadFacts:
-    """What a video says of itself, once its first two pictures could be read."""
+    """Facts of a video that holds two pictures at least."""
 
     path: Path
 
     def answer(self, repository: FrameSourceCache, report: Report) -> Facts:
         """Reads them."""
         del repository
-        frames = open_frames(self.path)
+        frames = open_frames(self.path, lambda: report(0.0))
         try:
-            for number in range(2):
-                try:
-                    frames.picture(number)
-                except InputError:
-                    raise InputError(
-                        f"{self.path.name} holds {number} pictures; a track needs at least two.", "file"
-                    ) from None
-            return frames.counted(lambda: report(0.0))
+            if frames.facts.count < 2:
+                raise InputError(f"{self.path.name} holds one picture; a track needs at least two.", "file")
+            frames.picture(0)
+            return frames.facts
         finally:
             frames.close()
+
+
+@dataclass(frozen=True)
+class ReadTimes:
+    """The time of each picture of a video after the first, s: (n,)."""
+
+    path: Path
+
+    def answer(self, repository: FrameSourceCache, report: Report) -> Floats:
+        """Reads them."""
+        del report
+        return repository.frames(self.path).times
 
 
 @dataclass(frozen=True)
@@ -315,6 +323,7 @@ def run_picture_worker(pipe: Connection, warm_up: None) -> None:
     """
     del warm_up
     use_one_thread()
+    silence_libraries()
     repository = FrameSourceCache()
 
     def work(task: VisionRequest, report: Report) -> Any:

@@ -80,7 +80,7 @@ class ModulePage:
     def _made(self, stamps: dict[Path, Stamp]) -> PageState:
         contents = (f"{path} {hashlib.sha256(path.read_bytes()).hexdigest()}" for path in stamps)
         version = hashlib.sha256("\n".join(contents).encode()).hexdigest()[:12]
-        source = (self._folder / "index.html").read_text()
+        source = (self._folder / "index.html").read_text("utf-8")
         sheets = _SHEET.findall(source)
         styles = b"".join((self._folder / name).read_bytes() for name in sheets)
         links = [f'<link rel="stylesheet" href="/static/{STYLES}">'] if sheets else []
@@ -111,4 +111,5 @@ class ModulePage:
 
 def _imported(module: Path) -> dict[Path, None]:
     """The modules that a module imports before it runs, each once, in its order."""
-    return dict.fromkeys((module.parent / name).resolve() for name in _IMPORT.findall(module.read_text()))
+    names = _IMPORT.findall(module.read_text("utf-8"))
+    return dict.fromkeys((module.parent / name).resolve() for name in names)

@@ -42,6 +42,11 @@ class FootTrack:
         return int(self.feet.shape[1])
 
     @property
+    def frame_rate(self) -> float:
+        """Frames a second, the mean by its times."""
+        return float((self.times.size - 1) / (self.times[-1] - self.times[0]))
+
+    @property
     def gaps(self) -> tuple[tuple[int, int, int], ...]:
         """Each gap as foot, first frame and last frame, 0-based and included."""
         return tuple(

@@ -190,6 +190,11 @@ class LineReader:
         self._pending = bytearray(rest)
         return [line for raw in complete if (line := self._classify(bytes(raw))) is not None]
 
+    def cut(self) -> None:
+        """Bytes may be missing from here on: leaves out what comes before the next LF."""
+        self._pending.clear()
+        self._drop_next, self._echo_next = True, False
+
     def _classify(self, raw: bytes) -> Line | None:
         if self._drop_next:
             self._drop_next = False

@@ -53,9 +53,6 @@ class Job:
         label: what a person calls it.
         problem: what was asked.
         state: where it stands.
-        created: when it was submitted, s since the epoch.
-        started: when a worker took it, or None.
-        ended: when it reached its last state, or None.
         progress: every iteration so far.
         result: what the solver reported, or None.
         sentence: the state in words.
@@ -66,9 +63,6 @@ class Job:
     label: str
     problem: MotionProblem
     state: JobState
-    created: float
-    started: float | None = None
-    ended: float | None = None
     progress: tuple[Iterate, ...] = ()
     result: MotionResult | TimingResult | None = None
     sentence: str = ""

@@ -6,7 +6,6 @@ import logging
 import queue
 import secrets
 import threading
-import time
 from collections import OrderedDict, deque
 from collections.abc import Callable
 from dataclasses import replace
@@ -40,7 +39,6 @@ class JobQueue:
         time_limit: longest a job may run, s.
         warm_up: a problem of the shape that is likely to come first, solved by each new worker.
         starts_ahead: whether the processes start now, rather than with their first job.
-        clock: seconds since the epoch.
     """
 
     def __init__(
@@ -51,10 +49,8 @@ class JobQueue:
         time_limit: float = 60.0,
         warm_up: MotionProblem | None = None,
         starts_ahead: bool = True,
-        clock: Callable[[], float] = time.time,
     ) -> None:
         self._on_change = on_change
-        self._clock = clock
         self._changed = threading.Condition()
         self._jobs: OrderedDict[str, Job] = OrderedDict()
         self._waiting: deque[str] = deque()
@@ -97,7 +93,6 @@ class JobQueue:
                 label=label,
                 problem=problem,
                 state=JobState.QUEUED,
-                created=self._clock(),
                 sentence="Waiting for a worker.",
             )
             self._waiting.append(job.id)
@@ -179,9 +174,7 @@ class JobQueue:
             if self._closing:
                 return None
             job = self._jobs[self._waiting.popleft()]
-            return self.publish(
-                replace(job, state=JobState.RUNNING, started=self._clock(), sentence="Optimising.")
-            )
+            return self.publish(replace(job, state=JobState.RUNNING, sentence="Optimising."))
 
     @property
     def closing(self) -> bool:
@@ -203,7 +196,7 @@ class JobQueue:
 
     def end(self, job: Job, state: JobState, sentence: str) -> Job:
         """Publishes a job's last state."""
-        return self.publish(replace(job, state=state, sentence=sentence, ended=self._clock()))
+        return self.publish(replace(job, state=state, sentence=sentence))
 
     def _forget_old(self) -> None:
         ended = [job.id for job in self._jobs.values() if not job.open]

@@ -32,7 +32,7 @@ ONE_MODULE = {
 """Packages that one module alone imports."""
 HEAVY = SOLVERS | SHAPES | WEB | {"PIL", "app.bench", "cv2", "pydantic", "scipy", "solver_jobs"}
 """What a command that needs no solver, gait document or server does without."""
-OPENCV_USERS = {"app/vision/video_io.py", "app/vision/blobs.py", "app/vision/checkerboard.py"}
+OPENCV_USERS = {f"app/vision/{name}.py" for name in ("video_io", "video_file", "blobs", "checkerboard")}
 """Modules that use OpenCV, in processes of their own."""
 SCHEMAS = {"app/documents/gait_json.py", "app/documents/gait_schema.py", "app/cameras/setup_schema.py"}
 """Modules beside the web edge that use pydantic, for files."""

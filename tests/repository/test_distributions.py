@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 import sys
 import tarfile
 import tomllib
@@ -15,47 +14,22 @@ from pathlib import Path
 import pytest
 
 from app.cli.parser import make_parser
+from tests.repository.distributions import INSTALL_SECONDS, built, run
 from tests.repository.test_oldest_versions import answers, can_fetch
-from tests.repository.test_packaging import NO_SOURCE, SCRIPT
-from tests.support.studio_process import PROGRAM, PROJECT, running_studio
+from tests.repository.test_packaging import SCRIPT
+from tests.support.studio_process import PROJECT, running_studio
 
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
 """The Pythons that are supported."""
-BUILD_SECONDS, INSTALL_SECONDS = 300, 1200
-"""Deadlines for loaded machines, which no test waits out."""
-BUILD = "import setuptools.build_meta as tools, sys; getattr(tools, sys.argv[1])(sys.argv[2])"
 IMAGE = PROJECT / "docs" / "docker" / "Dockerfile"
 ORDERS = re.findall(r"^([A-Z]+) (.+)$", IMAGE.read_text(encoding="utf-8"), re.MULTILINE)
 """The lines of the image's recipe, as instruction and its text."""
-
-
-def run(*words: str | Path, cwd: Path, seconds: float) -> str:
-    """What a command prints; it has to succeed."""
-    done = subprocess.run(words, cwd=cwd, capture_output=True, text=True, timeout=seconds, check=False)
-    assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-4000:]
-    return done.stdout
-
-
-def built(source: Path, kind: str, target: Path) -> Path:
-    """Builds the `sdist` or the `wheel` of a folder without fetching anything."""
-    run(sys.executable, "-c", BUILD, f"build_{kind}", target, cwd=source, seconds=BUILD_SECONDS)
-    return next(target.glob("*.tar.gz" if kind == "sdist" else "*.whl"))
 
 
 def files_of(wheel: Path) -> dict[str, int]:
     """Files of a wheel with the checksums of their contents, its own list of them left out."""
     with zipfile.ZipFile(wheel) as file:
         return {one.filename: one.CRC for one in file.infolist() if not one.filename.endswith("/RECORD")}
-
-
-@pytest.fixture(scope="module")
-def distributions(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the source distribution and the wheel of this checkout."""
-    folder = tmp_path_factory.mktemp("distributions")
-    shutil.copytree(PROJECT, folder / "source", ignore=shutil.ignore_patterns(*NO_SOURCE))
-    for kind in ("sdist", "wheel"):
-        built(folder / "source", kind, folder)
-    return folder
 
 
 @pytest.fixture(scope="module")
@@ -80,10 +54,13 @@ def test_the_source_distribution_makes_the_same_wheel_as_the_checkout(
 @pytest.mark.heavy
 def test_the_wheel_has_every_file_of_the_program_and_no_other(distributions: Path) -> None:
     wheel = {name for name in files_of(next(distributions.glob("*.whl"))) if ".dist-info/" not in name}
-    packages = ("app", "core", "footfall-stubs", "robot_description", "solver_jobs")
+    places = {
+        "footfall-stubs": "",
+        **dict.fromkeys(("app", "core", "robot_description", "solver_jobs"), "footfall_studio/"),
+    }
     program = {
-        str(path.relative_to(PROJECT))
-        for package in packages
+        f"{place}{path.relative_to(PROJECT)}"
+        for package, place in places.items()
         for path in (PROJECT / package).rglob("*")
         if path.is_file() and path.suffix != ".pyc"
     }
@@ -101,7 +78,7 @@ def test_both_have_licence_and_description(distributions: Path, unpacked: Path) 
 
 
 @pytest.fixture(params=PYTHONS)
-def installed(request: pytest.FixtureRequest, distributions: Path, tmp_path: Path) -> Iterator[str]:
+def environment(request: pytest.FixtureRequest, distributions: Path, tmp_path: Path) -> Iterator[str]:
     """The Python of a new environment into which the wheel was installed, by the tested versions."""
     name = f"python{request.param}"
     if sys.version_info[:2] == tuple(map(int, request.param.split("."))):
@@ -123,15 +100,15 @@ def installed(request: pytest.FixtureRequest, distributions: Path, tmp_path: Pat
 @pytest.mark.soak
 @pytest.mark.timeout(2 * INSTALL_SECONDS)
 def test_the_wheel_runs_on_every_supported_python_far_from_the_checkout(
-    installed: str, tmp_path: Path
+    environment: str, tmp_path: Path
 ) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
-    command = Path(installed).with_name("footfall")
+    command = Path(environment).with_name("footfall")
     assert "fast-c-gait" in run(command, "gaits", cwd=elsewhere, seconds=120)
     run(command, "doctor", "--data", elsewhere / "data", cwd=elsewhere, seconds=120)
-    assert run(installed, "-c", SCRIPT, cwd=elsewhere, seconds=120).split()[:2] == ["solved", "True"]
-    with running_studio(elsewhere / "data", cwd=elsewhere, program=PROGRAM, python=installed) as studio:
+    assert run(environment, "-c", SCRIPT, cwd=elsewhere, seconds=120).split()[:2] == ["solved", "True"]
+    with running_studio(elsewhere / "data", cwd=elsewhere, program=(str(command),)) as studio:
         assert studio.text("/").startswith("<!doctype html>")
         assert studio.ask("GET", "/api/gaits/walk/view").content["plan"]["strokes_mm"] is not None
 

@@ -4,52 +4,21 @@ from __future__ import annotations
 
 import ast
 import inspect
-import os
-import shutil
 import subprocess
 import sys
-import sysconfig
-import venv
 from pathlib import Path
 
 import pytest
 
 import footfall
-from tests.support.studio_process import PROGRAM, PROJECT, running_studio
-
-NO_SOURCE = (".git", ".venv", "node_modules", ".hypothesis", "build", "*.egg-info", "__pycache__", ".*_cache")
-
-
-def run_quietly(*words: str) -> None:
-    subprocess.run(words, check=True, capture_output=True, timeout=180)
-
-
-@pytest.fixture(scope="module")
-def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where the wheel is installed, far from the checkout."""
-    folder = tmp_path_factory.mktemp("wheel")
-    source, wheels, target = folder / "source", folder / "wheels", folder / "installed"
-    shutil.copytree(PROJECT, source, ignore=shutil.ignore_patterns(*NO_SOURCE))
-    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input"]
-    run_quietly(*pip, "wheel", "--no-deps", "--no-build-isolation", "-w", str(wheels), str(source))
-    wheel = next(wheels.glob("*.whl"))
-    run_quietly(*pip, "install", "--no-deps", "--target", str(target), str(wheel))
-    return target
+from tests.repository.distributions import run
+from tests.support.studio_process import PROJECT, running_studio
 
 
 @pytest.mark.heavy
-def test_a_wheel_serves_the_studio_far_from_the_checkout(installed: Path, tmp_path: Path) -> None:
-    environment = {**os.environ, "PYTHONPATH": str(installed)}
-    words = subprocess.run(
-        [sys.executable, "-c", "import app, sys; print(app.__file__)"],
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert words.stdout.startswith(str(installed))
-    with running_studio(tmp_path / "data", cwd=tmp_path, environment=environment, program=PROGRAM) as studio:
+def test_a_wheel_serves_the_studio_far_from_the_checkout(wheel_python: Path, tmp_path: Path) -> None:
+    command = wheel_python.with_name("footfall")
+    with running_studio(tmp_path / "data", cwd=tmp_path, program=(str(command),)) as studio:
         view = studio.ask("GET", "/api/gaits/walk/view").content
         assert view["plan"]["strokes_mm"] is not None
         assert studio.text("/").startswith("<!doctype html>")
@@ -65,32 +34,17 @@ print(plan.status, ff.check(plan).passed, ff.__version__)
 
 @pytest.mark.heavy
 def test_import_footfall_works_from_the_wheel_beside_files_of_the_same_names(
-    installed: Path, tmp_path: Path
+    wheel_python: Path, tmp_path: Path
 ) -> None:
     for name in ("app", "core"):
         (tmp_path / f"{name}.py").write_text("mine = True\n")
     (tmp_path / "script.py").write_text(f"import app, core{SCRIPT}assert app.mine and core.mine\n")
-    done = subprocess.run(
-        [sys.executable, "script.py"],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(installed)},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
-    assert done.stdout.split()[:2] == ["solved", "True"], done.stderr
+    assert run(wheel_python, "script.py", cwd=tmp_path, seconds=60).split()[:2] == ["solved", "True"]
 
 
 @pytest.mark.heavy
-def test_types_reach_users(installed: Path, tmp_path: Path) -> None:
+def test_types_reach_users(wheel_python: Path, tmp_path: Path) -> None:
     """Mypy reads the stubs of the wheel, as a user's own check does."""
-    home = tmp_path / "fresh"
-    venv.create(home, with_pip=False)
-    packages = next((home / "lib").glob("python*/site-packages"))
-    for name in ("footfall.py", "footfall-stubs"):
-        (packages / name).symlink_to(installed / name)
-    (packages / "numpy.pth").write_text(sysconfig.get_path("purelib") + "\n")
     script = tmp_path / "six.py"
     script.write_text(
         "import footfall as ff\n"
@@ -110,7 +64,7 @@ def test_types_reach_users(installed: Path, tmp_path: Path) -> None:
         "--config-file=",
         "--python-executable",
     ]
-    words = [*mypy, str(home / "bin" / "python"), str(script)]
+    words = [*mypy, str(wheel_python), str(script)]
     said = subprocess.run(
         words, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False
     ).stdout

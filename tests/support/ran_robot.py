@@ -61,7 +61,7 @@ def ran() -> Ran:
     robot = TimedRobot()
     robot.begin(make_plan([[9.0] * 12]))
     robot.until_robot(RobotState.DONE)
-    robot.machine.arm("Ada", robot.now)
+    robot.machine.arm("Ada")
     began, before, known = robot.now, len(robot.log), len(robot.machine.transitions)
     robot.machine.send(RunPlan(way.waypoints, approval, way.hold_ok), "Ada", robot.now)
     robot.pieces = [RunBytes(robot.now, True, data) for _, data in robot.log[before:]]

@@ -12,7 +12,7 @@ import tempfile
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,8 +26,10 @@ START_SECONDS = 30.0
 END_SECONDS = 60.0
 ANSWER_SECONDS = 180.0
 """How long an answer may take: a deadline for loaded machines, which no test waits out."""
-PROGRAM, PATIENT = "app", "tests.support.patient_studio"
-"""Modules that are run: the program itself, and the same with deadlines for loaded machines."""
+PATIENT = "tests.support.patient_studio"
+"""The module that runs the program with deadlines for loaded machines."""
+PROGRAM, USUAL = (sys.executable, "-m", "app"), (sys.executable, "-m", PATIENT)
+"""What starts the program, and the same with these deadlines."""
 
 
 def wait_for(condition: Callable[[], bool], what: str, seconds: float = 180.0) -> None:
@@ -115,7 +117,7 @@ class StudioProcess:
 def footfall(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
     """Runs a command of the program to its end."""
     return subprocess.run(
-        [sys.executable, "-m", "app", *words],
+        [*PROGRAM, *words],
         cwd=PROJECT,
         capture_output=True,
         text=True,
@@ -157,15 +159,14 @@ def running_studio(
     *words: str,
     cwd: Path = PROJECT,
     environment: dict[str, str] | None = None,
-    program: str = PATIENT,
-    python: str = sys.executable,
+    program: Sequence[str] = USUAL,
 ) -> Iterator[StudioProcess]:
     """A studio on a free port; ended by SIGTERM, and its exit status must be 0.
 
     Where nothing is asked of how it is started, it is a fork of a process that has loaded the program.
     """
     command = ["serve", "--port", "0", "--data", str(data), "--no-browser", *words]
-    is_usual = (cwd, environment, program, python) == (PROJECT, None, PATIENT, sys.executable)
+    is_usual = (cwd, environment, program) == (PROJECT, None, USUAL)
     descriptor, name = tempfile.mkstemp(prefix="footfall-said-", suffix=".txt")
     os.close(descriptor)
     said = Path(name)
@@ -174,9 +175,7 @@ def running_studio(
     try:
         with spending("starting studios"):
             child = (
-                _forked(command, said)
-                if is_usual
-                else _started([python, "-m", program, *command], said, cwd, environment)
+                _forked(command, said) if is_usual else _started([*program, *command], said, cwd, environment)
             )
             line = child.output.readline()
         found = re.search(r"http://\S+", line)

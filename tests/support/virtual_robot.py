@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from app.bridge.bridge import LATE
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState, RunPlan
 from app.emulator.virtual_link import VirtualLink
 from core.findings import Approval
@@ -28,6 +29,26 @@ def random_plan(seed: int, count: int) -> RunPlan:
 class VirtualRobot(VirtualLink):
     """A session on an emulated robot, with a person's usual ways."""
 
+    unseen = 0.0
+    """Time in which the host did not run, s."""
+
+    @property
+    def now(self) -> float:
+        return self.firmware.now - self.unseen
+
+    def away(self, seconds: float, kept: int) -> None:
+        """The host does not run; the line keeps so many bytes of what the robot says meanwhile."""
+        begin, waiting = self.firmware.now, bytearray()
+        while self.firmware.now < begin + seconds:
+            next(self._program)
+            waiting += b"".join(chunk.data for chunk in self.firmware.board.take_sent())
+        passed = self.firmware.now - begin
+        self.unseen += passed - LATE
+        self.machine.away(passed, self.now)
+        self.machine.received(bytes(waiting[:kept]), self.now)
+        self.machine.listen_anew(self.now)
+        self.machine.tick(self.now)
+
     @property
     def sent(self) -> list[bytes]:
         return [data for way, data in self.log if way is Direction.TO_ROBOT]
@@ -41,7 +62,7 @@ class VirtualRobot(VirtualLink):
 
     def arm(self) -> None:
         self.connect()
-        self.machine.arm("Ada", self.now)
+        self.machine.arm("Ada")
 
     def begin(self, plan: RunPlan) -> None:
         self.arm()

@@ -15,7 +15,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import urllib.request
 from collections.abc import Callable, Iterator
@@ -27,6 +26,7 @@ import numpy as np
 
 from app.bench.common.measure import Row
 from app.bench.page.long_timeline import NAME, dragging, forget, long_gait, tasks_and_frames, watch
+from app.common.own_command import own_command
 from core.errors import InputError, StateError
 
 if TYPE_CHECKING:
@@ -243,7 +243,7 @@ def served_studio(fill: Callable[[Path], None] = lambda data: None) -> Iterator[
     """
     with tempfile.TemporaryDirectory() as data:
         fill(Path(data))
-        words = (sys.executable, "-u", "-m", "app", "serve", "--port", "0", "--data", data, "--no-browser")
+        words = own_command("serve", "--port", "0", "--data", data, "--no-browser")
         process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
         try:
             line = process.stdout.readline() if process.stdout is not None else ""

@@ -19,7 +19,7 @@ from app.bench.physics.runs import (
     tipped,
     walked,
 )
-from app.store.plain_file import write_atomically
+from app.store.named_file import write_named
 from core.errors import InputError
 from core.physics.findings import TILT_LIMIT
 from core.physics.parameters import physics_set
@@ -51,7 +51,7 @@ def bench_physics(reference: Path | None = None, page: Path | None = None) -> li
     optimised = list(optimised_cases(data))
     manual = list(manual_cases(data))
     if page is not None:
-        write_atomically(page, physics_page(optimised, manual))
+        write_named(page, physics_page(optimised, manual))
     return [
         *published_rows(optimised),
         *(own_row(case) for case in optimised),

@@ -13,7 +13,7 @@ from app.bench.robot.walk import PUBLISHED, as_published
 from app.bench.robot.walked_moves import DECIMALS, Move, WalkedMoves, walks_content
 from app.export.svg import svg
 from app.export.trajectory_files import read_trajectory
-from app.store.plain_file import write_atomically
+from app.store.named_file import write_named
 from core.arrays import Bools, Floats
 from core.errors import CheckError, InputError
 from core.gait.gait import heading_angle
@@ -41,8 +41,8 @@ def bench_moves(report: Path | None = None) -> list[Row]:
         require_picture(report)
     walks = (published_walk(), fastest_walk()) if PUBLISHED.exists() else (fastest_walk(),)
     if report is not None:
-        write_atomically(report, moves_svg(walks))
-        write_atomically(report.with_suffix(".json"), json.dumps(walks_content(walks)) + "\n")
+        data = json.dumps(walks_content(walks)) + "\n"
+        write_named(report, moves_svg(walks), lambda: write_named(report.with_suffix(".json"), data))
     return [_row(walk) for walk in walks]
 
 

@@ -7,7 +7,6 @@ import re
 import select
 import signal
 import subprocess
-import sys
 import threading
 import time
 import tty
@@ -22,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from app.common.json import Json
+from app.common.own_command import own_command
 from app.emulator.ports import PtyPort
 from app.emulator.profiles import ProfileName
 from core.errors import StateError
@@ -101,7 +101,7 @@ class Tap:
 def emulator_process(speed: float = 1.0, profile: ProfileName = ProfileName.PUBLISHED) -> Iterator[str]:
     """Device of a `footfall emulate` that is a process of its own."""
     options = ("--speed", str(speed), "--profile", profile.value)
-    words = (sys.executable, "-u", "-m", "app", "emulate", *options)
+    words = own_command("emulate", *options)
     process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
     try:
         yield (process.stdout.readline() if process.stdout is not None else "").strip()
@@ -125,7 +125,7 @@ class Studio:
 
     def __init__(self, data: Path, device: str, *more: str, log: Path | None = None) -> None:
         options = ("--port", "0", "--data", str(data), "--robot", device, "--no-browser")
-        words = (sys.executable, "-u", "-m", "app", "serve", *options, *more)
+        words = own_command("serve", *options, *more)
         with log.open("wb") if log is not None else nullcontext() as said:
             self._process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=said, text=True)
         line = self._process.stdout.readline() if self._process.stdout is not None else ""

@@ -126,7 +126,7 @@ class SoakRound:
 
     def _stream(self, plan: RunPlan, *, strikes: bool) -> None:
         bridge = self._bridge
-        bridge.machine.arm(BY, bridge.now)
+        bridge.machine.arm(BY)
         self._auditor.expect(plan)
         bridge.machine.send(plan, BY, bridge.now)
         strike_at = self._dice.randrange(plan.waypoints.count) if strikes else -1

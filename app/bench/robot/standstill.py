@@ -50,7 +50,7 @@ def seconds_to_stand(bound: float, profile: ProfileName, dice: random.Random) ->
     bridge.boot()
     bridge.open()
     bridge.until(lambda s: s.link is LinkState.READY)
-    bridge.machine.arm(BY, bridge.now)
+    bridge.machine.arm(BY)
     bridge.machine.send(_plan(bound, dice), BY, bridge.now)
     bridge.until(lambda s: s.run is not None and s.run.sent > 0)
     stop_at = bridge.now + dice.uniform(0.0, LATEST_STOP)

@@ -3,9 +3,7 @@
 import json
 import math
 import os
-import sys
 from argparse import Namespace
-from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
@@ -18,11 +16,13 @@ from app.atlas.opening import OpenedGait, opened_gait, opened_point
 from app.atlas.run import Engine, LocalEngine, Progress, run_atlas
 from app.cli.atlas.physics import gait_content as physics_of_gait
 from app.cli.atlas.physics import gait_lines, run_lines, simulate_chosen
-from app.cli.common.output import INFEASIBLE, NOT_FIT, duration, end_on_signals, note, show
+from app.cli.common.output import INFEASIBLE, NOT_FIT, duration, end_on_signals, note, show, written_lines
+from app.cli.common.progress import end_line, rewrite_line
 from app.common.json import Json
 from app.common.signals import Interrupted
 from app.documents.gait_json import gait_content
-from app.store.plain_file import read_plain_file, write_atomically
+from app.store.named_file import form_of, is_plain, write_named
+from app.store.plain_file import read_plain_file
 from core.atlas.row import AtlasRow, RowStatus
 from core.atlas.space import AtlasSpace, default_space, space_from_toml
 from core.errors import InputError
@@ -39,15 +39,17 @@ def run_atlas_run(options: Namespace) -> int:
     space = atlas_space(options.robot, options.space, options.seed)
     if options.output.suffix != ".sqlite":
         raise InputError(f"{options.output} must end in .sqlite; an atlas is one SQLite file.", "-o")
+    if not is_plain(options.output):
+        raise InputError(f"{options.output} must be a plain file; an atlas is read and written often.", "-o")
     engine = _engine(options)
     with closing(AtlasFile(options.output, space)) as atlas:
         try:
-            progress = run_atlas(atlas, options.count, engine, _shown_progress())
-            _end_line()
+            progress = run_atlas(atlas, options.count, engine, _show_progress)
+            end_line()
             counts, digest = atlas.counts(), atlas.hash
             physics = simulate_chosen(options, atlas, _workers(options))
         except (KeyboardInterrupt, Interrupted):
-            _end_line()
+            end_line()
             note(_kept(atlas))
             raise
     content = {
@@ -133,17 +135,17 @@ def run_atlas_export(options: Namespace) -> int:
 def run_atlas_open(options: Namespace) -> int:
     """Solves a gait of an atlas again, says whether the answer differs, and writes it as a gait file."""
     end_on_signals()
-    if options.output is not None and options.output.suffix != ".json":
+    if options.output is not None and form_of(options.output, (".json",)) is None:
         raise InputError(f"{options.output} must end in .json; it becomes a gait file.", "-o")
     with closing(AtlasFile(included_or(options.atlas))) as atlas:
         if options.output is None:
             opened = opened_point(atlas, options.id)
         else:
-            opened = opened_gait(atlas, options.id, _shown_search)
+            opened = opened_gait(atlas, options.id, _show_search)
         physics = atlas.physics().get(options.id)
     if opened.document is not None:
         text = json.dumps(gait_content(opened.document), ensure_ascii=False)
-        write_atomically(options.output, text + "\n")
+        write_named(options.output, text + "\n")
     content = {**_opened_content(opened, options.output), "physics": physics_of_gait(physics)}
     show(options, content, _opened_lines(opened, options.output) + gait_lines(physics))
     return 0 if opened.agrees else NOT_FIT
@@ -179,7 +181,7 @@ def _opened_lines(opened: OpenedGait, output: Path | None) -> list[str]:
     lines.append(opened.difference or "The answer is the one of the atlas.")
     walk = opened.walk
     if output is not None:
-        lines.append(f"Wrote {output}.")
+        lines += written_lines(output)
         if walk is not None and walk.gait is not None:
             lines.append(_from_stance_words(opened, walk.gait))
         elif walk is not None:
@@ -222,27 +224,12 @@ def _words(row: AtlasRow, parameters: Json, key: str) -> str:
     return f"{key} {value_of(row, parameters, key) * factor:.3g} {unit}".rstrip()
 
 
-def _shown_progress() -> Callable[[Progress], object]:
-    def tell(progress: Progress) -> None:
-        if not sys.stderr.isatty():
-            return
-        left = progress.seconds_left
-        words = "" if left is None else f", {duration(left)} left"
-        sys.stderr.write(
-            f"\r\033[K{progress.done:,} of {progress.count:,} gaits, {progress.solved:,} solved{words}"
-        )
-        sys.stderr.flush()
-
-    return tell
+def _show_progress(progress: Progress) -> None:
+    left = progress.seconds_left
+    words = "" if left is None else f", {duration(left)} left"
+    rewrite_line(f"{progress.done:,} of {progress.count:,} gaits, {progress.solved:,} solved{words}")
 
 
-def _shown_search(progress: PoseProgress) -> bool:
-    if sys.stderr.isatty():
-        sys.stderr.write(f"\r\033[K{progress.stage}")
-        sys.stderr.flush()
+def _show_search(progress: PoseProgress) -> bool:
+    rewrite_line(progress.stage)
     return True
-
-
-def _end_line() -> None:
-    if sys.stderr.isatty():
-        note("")

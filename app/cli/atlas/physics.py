@@ -1,8 +1,7 @@
 """What the commands of atlases do and print of physics."""
 
-import sys
 from argparse import Namespace
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from app.atlas.atlas_file import AtlasFile
@@ -10,6 +9,7 @@ from app.atlas.front import UNITS
 from app.atlas.physics import VARIATIONS, PhysicsProgress, run_physics
 from app.atlas.physics_choice import PhysicsChoice, physics_choice
 from app.cli.common.output import duration, note
+from app.cli.common.progress import end_line, rewrite_line
 from app.common.json import Json
 from core.atlas.physics_row import PhysicsRow, physics_content
 
@@ -30,10 +30,8 @@ def simulate_chosen(options: Namespace, atlas: AtlasFile, workers: int) -> Json 
     choice = physics_choice(atlas, options.physics)
     if choice.notice is not None:
         note(choice.notice)
-    tell = _shown(sys.stderr.isatty())
-    progress = run_physics(atlas, choice, workers, tell, variations=VARIATIONS)
-    if sys.stderr.isatty():
-        note("")
+    progress = run_physics(atlas, choice, workers, _tell, variations=VARIATIONS)
+    end_line()
     return run_content(choice, progress)
 
 
@@ -85,16 +83,10 @@ def gait_lines(row: PhysicsRow | None) -> list[str]:
     ]
 
 
-def _shown(is_watched: bool) -> Callable[[PhysicsProgress], object]:
-    def tell(progress: PhysicsProgress) -> None:
-        if not is_watched:
-            return
-        left = progress.seconds_left
-        words = "" if left is None else f", {duration(left)} left"
-        sys.stderr.write(
-            f"\r\033[K{progress.done:,} of {progress.count:,} gaits simulated, {progress.walking:,} walk in "
-            f"all variations{words}"
-        )
-        sys.stderr.flush()
-
-    return tell
+def _tell(progress: PhysicsProgress) -> None:
+    left = progress.seconds_left
+    words = "" if left is None else f", {duration(left)} left"
+    rewrite_line(
+        f"{progress.done:,} of {progress.count:,} gaits simulated, {progress.walking:,} walk in all "
+        f"variations{words}"
+    )

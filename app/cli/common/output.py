@@ -7,11 +7,14 @@ import signal
 import sys
 from argparse import Namespace
 from collections.abc import Sequence
+from pathlib import Path
 from types import FrameType
-from typing import Any, TextIO
+from typing import IO, Any, AnyStr
 
 from app.common.json import finite
+from app.common.printable import printable_line
 from app.common.signals import Interrupted, ending_signals
+from app.store.named_file import is_plain, open_file_number
 from core.errors import InputError
 from core.findings import SendCost, Severity, Verdict
 
@@ -19,6 +22,8 @@ INFEASIBLE, NOT_FIT = 3, 4
 """Exit status of a command that found no motion or pattern, and of one whose check failed."""
 INTERRUPTED = 130
 """Exit status of a command that Ctrl-C, SIGTERM or SIGHUP ended."""
+UNWRITABLE = "output"
+"""Place of a refusal that standard output takes nothing."""
 _NO_READER = (errno.EPIPE, errno.EIO)
 """The pipe's other end is closed; the terminal is closed."""
 
@@ -38,14 +43,43 @@ def end_on_signals() -> None:
 
 
 def show(options: Namespace, content: dict[str, Any], lines: Sequence[str]) -> None:
-    """Prints content as JSON, or lines for people."""
-    text = json.dumps(finite(content), allow_nan=False) if options.json else "\n".join(lines)
-    write(sys.stdout, text + "\n")
+    """Prints content as JSON, or lines for people; beside a file that goes to /dev/stdout, as a note."""
+    text = json.dumps(finite(content), allow_nan=False) if options.json else _joined(lines)
+    output: Path | None = getattr(options, "output", None)
+    is_taken = output is not None and open_file_number(output) == 1
+    write(sys.stderr if is_taken else sys.stdout, text + "\n")
 
 
-def note(text: str) -> None:
+def show_file(content: str) -> None:
+    """Prints what a file would hold, to the last byte and in UTF-8 unless it goes to a terminal."""
+    if sys.stdout.isatty() or not hasattr(sys.stdout, "buffer"):
+        write(sys.stdout, content)
+    else:
+        write(sys.stdout.buffer, content.encode())
+
+
+def note(*lines: str) -> None:
     """Says something beside the result, on standard error."""
-    write(sys.stderr, text + "\n")
+    write(sys.stderr, _joined(lines) + "\n")
+
+
+def written_lines(output: Path | None, *, has_companion: bool = False) -> list[str]:
+    """Says which file was written, if one was.
+
+    Args:
+        output: the file.
+        has_companion: whether a companion belongs beside it.
+    """
+    if output is None:
+        return []
+    if has_companion and not is_plain(output):
+        return [f"Wrote {output}. It is no plain file, so that no companion was written."]
+    return [f"Wrote {output}."]
+
+
+def _joined(lines: Sequence[str]) -> str:
+    """Lines that stay lines, whatever names they contain."""
+    return "\n".join(map(printable_line, lines))
 
 
 def duration(seconds: float) -> str:
@@ -57,7 +91,7 @@ def duration(seconds: float) -> str:
     return f"{minutes} min {rest} s" if minutes else f"{rest} s"
 
 
-def write(stream: TextIO, text: str) -> None:
+def write(stream: IO[AnyStr], text: AnyStr) -> None:
     """Writes text at once. Where nobody is left to read it, what follows is dropped: a run has to go on.
 
     Raises:
@@ -70,11 +104,12 @@ def write(stream: TextIO, text: str) -> None:
         drop(stream)
         if stream is not sys.stderr and error.errno not in _NO_READER:
             raise InputError(
-                f"The output cannot be written: {error.strerror}. Make room, or write it elsewhere.", "output"
+                f"The output cannot be written: {error.strerror}. Make room, or write it elsewhere.",
+                UNWRITABLE,
             ) from error
 
 
-def drop(stream: TextIO) -> None:
+def drop(stream: IO[Any]) -> None:
     """Drops what is still to be written to a stream, and all that follows."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 

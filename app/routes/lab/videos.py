@@ -6,6 +6,7 @@ from collections.abc import AsyncIterator
 from typing import Annotated
 from urllib.parse import quote
 
+import numpy as np
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import FileResponse, Response, StreamingResponse
 from pydantic import Field
@@ -133,6 +134,13 @@ async def picture_of_video(
     return Response(content, media_type="image/jpeg", headers={"cache-control": "no-cache"})
 
 
+@router.get("/{video}/times")
+async def times_of_video(video: str, studio: TheStudio) -> Json:
+    """The time of each picture after the first, s; films of many phones have a varying rate."""
+    times = await run_in_threadpool(studio.lab.videos.times, video)
+    return {"times": [round(time, 4) for time in times.tolist()]}
+
+
 @router.get("/{video}/file", response_class=Response)
 async def file_of_video(video: str, studio: TheStudio) -> FileResponse:
     """The video as it is kept; a recording as JPEG pictures one after the other (MJPEG)."""
@@ -156,7 +164,8 @@ async def play_video(
     """The video's pictures in real time (multipart), to its end; late ones are left out."""
     view = await run_in_threadpool(studio.lab.videos.view, video)
     first = await run_in_threadpool(studio.lab.videos.source, video, from_frame)
-    pace = max(view["rate"], 1.0) * speed
+    times = await run_in_threadpool(studio.lab.videos.times, video)
+    due = (times - times[from_frame]) / speed
 
     async def parts() -> AsyncIterator[bytes]:
         begun, number = time.monotonic(), from_frame
@@ -166,8 +175,10 @@ async def play_video(
                 yield part(await run_in_threadpool(studio.lab.videos.picture, source, most))
             except FootfallError:  # a file may hold fewer pictures than it says
                 return
-            number = max(number + 1, from_frame + int((time.monotonic() - begun) * pace))
-            await asyncio.sleep(max(0.0, begun + (number - from_frame) / pace - time.monotonic()))
+            late = int(np.searchsorted(due, time.monotonic() - begun, side="right")) - 1
+            number = max(number + 1, late)
+            if number < due.size:
+                await asyncio.sleep(max(0.0, begun + float(due[number]) - time.monotonic()))
 
     return StreamingResponse(parts(), media_type=f"multipart/x-mixed-replace; boundary={BOUNDARY}")
 

@@ -59,6 +59,8 @@ export const videoApi = {
   /** @param {string} run */
   ofRun: async (run) => (await request("GET", `/api/videos?${parameters({ run })}`)).videos,
   read: onVideo("GET"),
+  /** The time of each picture after the first, s. */
+  times: async (/** @type {string} */ id) => (await request("GET", `${at("videos", id)}/times`)).times,
   remove: onVideo("DELETE"),
   restore: onVideo("POST", "/restore"),
   /** @type {(file: File, options?: Sending) => Promise<any>} */
@@ -99,13 +101,13 @@ export const cameraApi = {
 
 /**
  * Where pictures come from: a kept video or a camera.
- * @typedef {{kind: "video"|"camera", id: string, name: string, frames: number, rate: number}} Source
+ * @typedef {{kind: "video"|"camera", id: string, name: string, frames: number}} Source
  */
 
 /** @type {(video: Json) => Source} */
-export const videoSource = ({ id, name, frames, rate }) => ({ kind: "video", id, name, frames, rate });
+export const videoSource = ({ id, name, frames }) => ({ kind: "video", id, name, frames });
 /** @type {(camera: Json) => Source} */
-export const cameraSource = ({ id, name }) => ({ kind: "camera", id, name, frames: 0, rate: 0 });
+export const cameraSource = ({ id, name }) => ({ kind: "camera", id, name, frames: 0 });
 
 const base = (/** @type {Source} */ { kind, id }) => at(`${kind}s`, id);
 /** @type {(source: Source, frame: number) => string} */

@@ -4,7 +4,8 @@ import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { pictureView } from "./picture_view.js";
-import { pictureOf } from "../api/videos.js";
+import { report } from "../lib/toasts.js";
+import { pictureOf, videoApi } from "../api/videos.js";
 import "./picture_style.js";
 
 const LIVE_MS = 250;
@@ -22,11 +23,13 @@ function frameSlider(moved) {
   });
   const words = h("span", { class: "quiet number" });
   const element = h("div", { class: "video-frames" }, range, number, words);
-  let rate = 1;
+  /** @type {number[]} */
+  let times = [];
   const show = (frame) => {
     range.value = number.value = String(frame);
-    range.setAttribute("aria-valuetext", `frame ${frame}, ${fixed(frame / rate, 2)} s`);
-    setText(words, `of ${Number(range.max) + 1} · ${fixed(frame / rate, 2)} s`);
+    const seconds = frame in times ? `${fixed(times[frame], 2)} s` : "";
+    range.setAttribute("aria-valuetext", [`frame ${frame}`, seconds].filter(Boolean).join(", "));
+    setText(words, [`of ${Number(range.max) + 1}`, seconds].filter(Boolean).join(" · "));
   };
   const take = (input) => () => {
     const frame = Math.round(Math.min(Math.max(input.valueAsNumber || 0, 0), Number(range.max)));
@@ -38,11 +41,15 @@ function frameSlider(moved) {
   return {
     element,
     /** @param {Record<string, any>} source */
-    open({ kind, frames, rate: perSecond }, frame) {
+    open({ kind, frames }, frame) {
       element.hidden = kind !== "video";
-      rate = perSecond || 1;
       range.max = number.max = String(Math.max(frames - 1, 0));
       show(Math.min(frame, Number(range.max)));
+    },
+    /** @param {number[]} ofPictures s, the time of each picture after the first */
+    time(ofPictures) {
+      times = ofPictures;
+      show(Number(range.value));
     },
     get frame() {
       return Number(range.value);
@@ -117,6 +124,7 @@ export function openStage(source, frame = 0, lost = () => {}) {
   });
   const slider = frameSlider(offer);
   slider.open(source, frame);
+  if (source.kind === "video") videoApi.times(source.id).then(slider.time).catch(report);
   const section = stageSection(source.name, slider.element, picture.element);
   offer(slider.frame);
 

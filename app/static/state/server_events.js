@@ -26,6 +26,8 @@ const RECEIVERS = {
   hello: (store, { version, gaits, robot, storage, jobs, motor_test: motorTest }) =>
     store.set({
       connected: true,
+      // A studio that was started again counts its answers from 1.
+      view: store.state.view && { ...store.state.view, stamp: 0 },
       greeted: true,
       version,
       gaits,

@@ -294,7 +294,7 @@ export function acceptSources(store, { id, revision, sources }) {
  */
 export function withJob(jobs, job) {
   const others = jobs.filter(({ id }) => id !== job.id);
-  return [...others, job].sort((a, b) => b.created - a.created || String(b.id).localeCompare(String(a.id)));
+  return [...others, job].sort((a, b) => b.number - a.number);
 }
 
 /** True while the robot carries out a run or may still move. @param {any} robot */

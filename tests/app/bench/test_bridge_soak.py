@@ -72,7 +72,7 @@ def test_the_judge_sees_a_wrong_stroke() -> None:
     robot.boot()
     robot.connect()
     auditor.expect(random_plan(1, 3))
-    robot.machine.arm("Ada", robot.now)
+    robot.machine.arm("Ada")
     robot.machine.send(random_plan(2, 3), "Ada", robot.now)
     while robot.snapshot.robot is RobotState.MOVING:
         robot.step()

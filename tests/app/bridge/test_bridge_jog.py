@@ -79,7 +79,7 @@ def test_a_stop_in_the_middle_of_a_jog_holds_and_nothing_resumes(wait: float) ->
     assert (stopped.jog, stopped.stop_text) == (None, "stopped by Grace")
     robot.machine.clear("Grace", robot.now)
     robot.until_robot(RobotState.DISARMED)
-    robot.machine.arm("Grace", robot.now)
+    robot.machine.arm("Grace")
     stands = robot.strokes_mm
     robot.wait(5.0)
     assert robot.strokes_mm == pytest.approx(stands, abs=0.02)
@@ -144,7 +144,7 @@ def test_only_an_armed_robot_that_stands_still_is_jogged() -> None:
     plan = jog_plan(robot)
     with pytest.raises(StateError, match="Arm the robot"):
         robot.machine.jog(plan, "Ada", robot.now)
-    robot.machine.arm("Ada", robot.now)
+    robot.machine.arm("Ada")
     robot.machine.send(make_plan([[4.0] * 12]), "Ada", robot.now)
     with pytest.raises(StateError, match="The robot is moving"):
         robot.machine.jog(plan, "Ada", robot.now)
@@ -193,7 +193,7 @@ def test_a_jog_is_not_paused() -> None:
     robot = armed()
     robot.machine.jog(jog_plan(robot), "Ada", robot.now)
     with pytest.raises(StateError, match="A jog cannot be paused"):
-        robot.machine.pause("Ada", robot.now)
+        robot.machine.pause("Ada")
 
 
 WAYPOINT = encode_waypoint(np.full((4, 3), 0.005), 1.0)

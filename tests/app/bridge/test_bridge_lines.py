@@ -304,6 +304,9 @@ class DeafLine(Transport):
     def write(self, data: bytes) -> None:
         del data
 
+    def wait_read(self) -> None:
+        pass
+
     def close(self) -> None:
         pass
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
 
-from app.bridge.bridge import LATE, RobotBridge
+from app.bridge.bridge import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
 from app.bridge.telemetry import IDLE_SILENCE, SILENCE_LIMIT, TelemetryMonitor
 from app.bridge.transport import Transport
@@ -130,6 +129,9 @@ class TalkingLine(Transport):
     def write(self, data: bytes) -> None:
         del data
 
+    def wait_read(self) -> None:
+        pass
+
     def close(self) -> None:
         self._ended.set()
         self._thread.join()
@@ -145,17 +147,17 @@ def bridge() -> Iterator[RobotBridge]:
     bridge.close()
 
 
-@pytest.mark.parametrize("place", ["_take", "_feed"])
+@pytest.mark.parametrize("place", ["_inbox.take", "_feed"])
 def test_a_program_that_was_kept_from_running_does_not_call_that_the_robots_silence(
     bridge: RobotBridge, monkeypatch: pytest.MonkeyPatch, place: str
 ) -> None:
-    run, tick, looked = getattr(bridge, place), bridge._machine.tick, threading.Event()
+    owner, name = (bridge._inbox, "take") if place == "_inbox.take" else (bridge, place)
+    run, tick, looked = getattr(owner, name), bridge._machine.tick, threading.Event()
 
     def run_late(*arguments: object) -> object:
         if not TalkingLine.hushed.is_set():
             TalkingLine.hushed.set()
             TalkingLine.now += 2 * SILENCE_LIMIT
-            time.sleep(2 * LATE)
         return run(*arguments)
 
     def look(now: float) -> None:
@@ -164,7 +166,7 @@ def test_a_program_that_was_kept_from_running_does_not_call_that_the_robots_sile
             looked.set()
 
     monkeypatch.setattr(bridge._machine, "tick", look)
-    monkeypatch.setattr(bridge, place, run_late)
+    monkeypatch.setattr(owner, name, run_late)
     assert looked.wait(PATIENCE)
     assert bridge.snapshot.link is LinkState.READY
 

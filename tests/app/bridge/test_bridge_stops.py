@@ -99,7 +99,7 @@ def test_a_stop_that_was_not_confirmed_is_not_called_stopped_after_reconnecting(
     robot.wait(2.0)
     robot.to_robot = losing(1000)
     robot.stop()
-    robot.machine.closed(robot.now)
+    robot.machine.closed()
     robot.to_robot = losing(1000, FLUSH + STOP)
     robot.connect()
     assert robot.snapshot.robot is RobotState.STOPPING

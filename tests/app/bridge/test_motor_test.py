@@ -30,7 +30,7 @@ def begun(
     if strokes_mm != REST_MM:
         robot.machine.send(make_plan([strokes_mm]), "Ada", robot.now)
         robot.until_robot(RobotState.DONE)
-        robot.machine.arm("Ada", robot.now)
+        robot.machine.arm("Ada")
     if fault:
         request = FaultRequest.parse(fault)
         robot.troubles.strike(request.fault, request.motors)
@@ -196,14 +196,14 @@ def test_only_an_armed_robot_is_tested_and_nothing_else_moves_it_meanwhile() -> 
     with pytest.raises(StateError, match="Arm the robot, then test its motors"):
         robot.machine.test_motors(WALKER, "Ada", robot.now)
     assert len(robot.sent) == sent
-    robot.machine.arm("Ada", robot.now)
+    robot.machine.arm("Ada")
     robot.machine.test_motors(WALKER, "Ada", robot.now)
     with pytest.raises(StateError, match="The robot is moving"):
         robot.machine.send(make_plan([[4.0] * MOTORS]), "Ada", robot.now)
     with pytest.raises(StateError, match="The robot is moving"):
         robot.machine.reset("Ada", robot.now)
     with pytest.raises(StateError, match="A motor test cannot be paused"):
-        robot.machine.pause("Ada", robot.now)
+        robot.machine.pause("Ada")
     ended(robot)
     assert encode_reset().decode()[1:-1] not in payloads(robot)
 
@@ -211,7 +211,7 @@ def test_only_an_armed_robot_is_tested_and_nothing_else_moves_it_meanwhile() -> 
 def test_a_new_test_begins_without_the_findings_of_the_last_one() -> None:
     robot = VirtualRobot()
     robot.connect()
-    robot.machine.arm("Ada", robot.now)
+    robot.machine.arm("Ada")
     robot.machine.test_motors(WALKER, "Ada", robot.now)
     assert len(ended(robot)) == MOTORS
     robot.machine.test_motors(WALKER, "Bo", robot.now)

@@ -68,7 +68,7 @@ def test_a_repeated_run_pauses_in_its_second_iteration_and_goes_on() -> None:
     robot = VirtualRobot(strokes_mm=(4.0,) * 12)
     robot.begin(with_course(make_plan(ROUND, HOLDS), first=3, iterations=3))
     robot.until(lambda s: s.run is not None and s.run.sent == 3)
-    robot.machine.pause("Ada", robot.now)
+    robot.machine.pause("Ada")
     paused = robot.until_robot(RobotState.PAUSED)
     assert paused.run is not None
     assert (paused.run.iteration, paused.run.waypoint_reached, paused.run.reached) == (2, 3, 5)

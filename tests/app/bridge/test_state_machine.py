@@ -1,6 +1,7 @@
 """The session on an emulated robot in virtual time: runs, stops, faults, refusals."""
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -119,7 +120,7 @@ def test_clear_moves_nothing_and_the_robot_runs_again_after_arming(start_mm: flo
     assert robot.strokes_mm == strokes
     assert robot.snapshot.stop_text is None
     assert robot.sent[-1] == b"<s,0>"
-    robot.machine.arm("Ada", robot.now)
+    robot.machine.arm("Ada")
     robot.machine.send(make_plan(SHORT), "Ada", robot.now)
     assert robot.until_robot(RobotState.DONE, RobotState.FAULT).robot is RobotState.DONE
 
@@ -140,11 +141,11 @@ def test_a_stop_is_latched_even_over_a_new_connection(robot: VirtualRobot) -> No
     robot.wait(2.0)
     robot.stop()
     robot.until_robot(RobotState.STOPPED)
-    robot.machine.closed(robot.now)
+    robot.machine.closed()
     robot.connect()
     assert robot.snapshot.robot is RobotState.STOPPED
     with pytest.raises(StateError, match="stopped"):
-        robot.machine.arm("Ada", robot.now)
+        robot.machine.arm("Ada")
 
 
 def test_an_edited_plan_is_refused(robot: VirtualRobot) -> None:
@@ -164,18 +165,30 @@ def test_a_plan_out_of_range_is_refused_before_anything_is_sent(robot: VirtualRo
     assert robot.sent == [encode_flush()]
 
 
+def wish(robot: VirtualRobot, verb: str) -> None:
+    machine = robot.machine
+    wishes: dict[str, Callable[[], object]] = {
+        "arm": lambda: machine.arm("Ada"),
+        "send": lambda: machine.send(make_plan(SHORT), "Ada", robot.now),
+        "reset": lambda: machine.reset("Ada", robot.now),
+        "pause": lambda: machine.pause("Ada"),
+        "resume": lambda: machine.resume("Ada", robot.now),
+        "clear": lambda: machine.clear("Ada", robot.now),
+    }
+    wishes[verb]()
+
+
 @pytest.mark.parametrize("verb", ["send", "reset", "pause", "resume", "clear"])
 def test_a_robot_that_is_not_armed_refuses_with_a_sentence(robot: VirtualRobot, verb: str) -> None:
     robot.connect()
-    wish = getattr(robot.machine, verb)
     with pytest.raises(StateError, match="disarmed"):
-        wish(make_plan(SHORT), "Ada", robot.now) if verb == "send" else wish("Ada", robot.now)
+        wish(robot, verb)
 
 
 @pytest.mark.parametrize("verb", ["arm", "reset", "clear"])
 def test_a_robot_that_is_not_connected_refuses_with_a_sentence(robot: VirtualRobot, verb: str) -> None:
     with pytest.raises(StateError, match="Connect it"):
-        getattr(robot.machine, verb)("Ada", robot.now)
+        wish(robot, verb)
 
 
 UNREADABLE = b"j,99.0000,"
@@ -187,16 +200,15 @@ def test_what_moves_the_robot_needs_to_know_where_it_stands_now(robot: VirtualRo
     robot.arm()
     robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", UNREADABLE, data)
     robot.wait(1.5)
-    wish = getattr(robot.machine, verb)
-    with pytest.raises(StateError, match="not reported its strokes for 1"):
-        wish(make_plan(SHORT), "Ada", robot.now) if verb == "send" else wish("Ada", robot.now)
+    with pytest.raises(StateError, match="not reported its strokes for more than 1"):
+        wish(robot, verb)
     assert robot.snapshot.robot is RobotState.ARMED
     assert robot.sent == [encode_flush()]
 
 
 def test_a_pause_does_not_end_before_it_is_known_where_the_robot_stands(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
-    robot.machine.pause("Ada", robot.now)
+    robot.machine.pause("Ada")
     robot.until_robot(RobotState.PAUSED)
     robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", UNREADABLE, data)
     robot.wait(1.5)
@@ -210,12 +222,12 @@ def test_a_pause_does_not_end_before_it_is_known_where_the_robot_stands(robot: V
 
 def test_a_robot_that_was_disarmed_needs_arming_again(robot: VirtualRobot) -> None:
     robot.arm()
-    robot.machine.disarm("Ada", robot.now)
+    robot.machine.disarm("Ada")
     with pytest.raises(StateError, match="The robot is disarmed"):
         robot.machine.send(random_plan(1, 2), "Ada", robot.now)
-    robot.machine.arm("Ada", robot.now)
+    robot.machine.arm("Ada")
     robot.machine.send(random_plan(1, 2), "Ada", robot.now)
-    robot.machine.disarm("Ada", robot.now)
+    robot.machine.disarm("Ada")
     assert robot.until_robot(RobotState.DONE).run is not None
 
 
@@ -229,7 +241,7 @@ def test_a_finished_run_needs_arming_again(robot: VirtualRobot) -> None:
 def test_a_pause_ends_at_the_next_pose_with_all_feet_down_and_resume_goes_on(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT, [False, False, True, True]))
     robot.until(lambda s: s.run is not None and s.run.sent == 1)
-    robot.machine.pause("Ada", robot.now)
+    robot.machine.pause("Ada")
     paused = robot.until_robot(RobotState.PAUSED)
     assert paused.run is not None
     assert paused.run.reached == 3
@@ -243,7 +255,7 @@ def test_a_pause_ends_at_the_next_pose_with_all_feet_down_and_resume_goes_on(rob
 def test_reset_draws_every_motor_in_and_leaves_the_robot_armed(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
     robot.until_robot(RobotState.DONE)
-    robot.machine.arm("Ada", robot.now)
+    robot.machine.arm("Ada")
     robot.machine.reset("Ada", robot.now)
     robot.until_robot(RobotState.ARMED)
     assert robot.strokes_mm == pytest.approx([0.5] * 12, abs=1.0)

@@ -114,13 +114,13 @@ class CommandQueue(RuleBasedStateMachine):
 
     @rule()
     def arm(self) -> None:
-        self.may_move |= self.wish(lambda: self.robot.machine.arm(BY, self.robot.now))
+        self.may_move |= self.wish(lambda: self.robot.machine.arm(BY))
 
     @rule()
     def disarm(self) -> None:
         if self.robot.machine.robot is RobotState.ARMED:
             self.may_move = False
-        self.robot.machine.disarm(BY, self.robot.now)
+        self.robot.machine.disarm(BY)
 
     @rule(seed=st.integers(0, 999), count=st.integers(1, 6))
     def send(self, seed: int, count: int) -> None:
@@ -145,7 +145,7 @@ class CommandQueue(RuleBasedStateMachine):
 
     @rule()
     def pause(self) -> None:
-        self.wish(lambda: self.robot.machine.pause(BY, self.robot.now))
+        self.wish(lambda: self.robot.machine.pause(BY))
 
     @rule()
     def resume(self) -> None:
@@ -183,7 +183,7 @@ class CommandQueue(RuleBasedStateMachine):
     def disconnect(self) -> None:
         self.may_move = False
         self.robot.gate.attach(None)
-        self.robot.machine.closed(self.robot.now)
+        self.robot.machine.closed()
 
     @precondition(lambda self: self.robot.machine.robot is not RobotState.FAULT)
     @rule(fault=st.sampled_from(Fault), motors=st.permutations(range(12)))

@@ -75,6 +75,15 @@ def test_while_editing_a_version_is_made_after_two_minutes(service: GaitService,
     assert service.restore_version(WALK, 2).gait == before
 
 
+@pytest.mark.parametrize("step", [-7200.0, 7200.0, -999_000.0, 3e9, -AUTOMATIC_SECONDS - 1])
+def test_a_clock_that_is_set_holds_up_no_version(step: float, service: GaitService, clock: Clock) -> None:
+    edit(service, WALK)
+    clock.now += step
+    edit(service, WALK, sample=21)
+    edit(service, WALK, sample=22)
+    assert kinds(service) == ["automatic", "automatic"]
+
+
 def test_while_editing_a_version_is_made_after_so_many_edits(service: GaitService) -> None:
     for number in range(AUTOMATIC_EDITS):
         edit(service, WALK, sample=1 + number)

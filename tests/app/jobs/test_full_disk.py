@@ -60,7 +60,7 @@ def test_a_result_that_cannot_be_kept_ends_its_job_with_the_reason(database: Dat
     service = OptimisationService(JobRepository(database), Queue(), keep)  # type: ignore[arg-type]
     service.submit(fresh_gait("walk", GAIT, True, None))
     problem = motion_problem(GAIT, load_robot(GAIT.robot))
-    job = Job("job", JobKind.MOTION, GAIT.name, problem, JobState.DONE, 1.0, result=solve_live(problem))
+    job = Job("job", JobKind.MOTION, GAIT.name, problem, JobState.DONE, result=solve_live(problem))
     content = service.changed(job)
     assert results
     assert content is not None

@@ -25,6 +25,9 @@ GRACE = {"X-Footfall-Page": "page-g", "X-Footfall-Name": "Grace"}
 
 Submit = Callable[..., Answer]
 
+LONG = 100.0
+"""All of a time that is set counts, s."""
+
 
 @pytest.fixture
 def ask(studio: StudioProcess) -> Iterator[Submit]:
@@ -129,7 +132,7 @@ def test_a_run_whose_holder_is_gone_pauses_at_the_next_pose_with_all_feet_down(
 ) -> None:
     time, told, bridge = [0.0], list[str](), RobotBridge()
     service = OperatorLease(
-        bridge, lambda: None, lambda page, event: told.append(page), lambda: time[0], 0.02
+        bridge, lambda: None, lambda page, event: told.append(page), lambda: time[0], 0.02, LONG
     )
     try:
         bridge.connect(robot.device)
@@ -162,7 +165,12 @@ def test_an_armed_robot_whose_holder_is_gone_is_disarmed_and_says_so(
 ) -> None:
     time, shown, bridge = [0.0], list[str](), RobotBridge()
     service = OperatorLease(
-        bridge, lambda: shown.append(bridge.snapshot.robot), lambda page, event: None, lambda: time[0], 0.02
+        bridge,
+        lambda: shown.append(bridge.snapshot.robot),
+        lambda page, event: None,
+        lambda: time[0],
+        0.02,
+        LONG,
     )
     try:
         bridge.connect(robot.device)
@@ -185,10 +193,26 @@ def test_an_armed_robot_whose_holder_is_gone_is_disarmed_and_says_so(
         bridge.close()
 
 
+def test_nobody_is_gone_because_the_studio_did_not_run() -> None:
+    time, bridge = [0.0], RobotBridge()
+    service = OperatorLease(bridge, lambda: None, lambda page, event: None, lambda: time[0], 0.02)
+    try:
+        with service.held_by(Author("page-a", "Ada")):
+            pass
+        for _ in range(5):
+            time[0] += 3600.0
+            assert not service.view()["is_gone"]
+            assert not threading.Event().wait(0.05)
+        assert not service.view()["is_gone"]
+    finally:
+        service.close()
+        bridge.close()
+
+
 def test_an_armed_robot_whose_holder_is_there_stays_armed(robot: EmulatedRobot) -> None:
     time, told, bridge = [0.0], list[str](), RobotBridge()
     service = OperatorLease(
-        bridge, lambda: None, lambda page, event: told.append(page), lambda: time[0], 0.02
+        bridge, lambda: None, lambda page, event: told.append(page), lambda: time[0], 0.02, LONG
     )
     try:
         bridge.connect(robot.device)
@@ -250,7 +274,7 @@ def test_the_end_of_a_deed_takes_the_robot_from_nobody_who_came_meanwhile() -> N
 
 def test_a_robot_whose_line_was_lost_is_the_next_persons_once_its_holder_is_gone() -> None:
     time, bridge = [0.0], RobotBridge()
-    service = OperatorLease(bridge, lambda: None, lambda page, event: None, lambda: time[0])
+    service = OperatorLease(bridge, lambda: None, lambda page, event: None, lambda: time[0], most=LONG)
     ada, grace = Author("page-a", "Ada"), Author("page-g", "Grace")
     try:
         with service.held_by(ada):

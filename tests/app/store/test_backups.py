@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shutil
 import sqlite3
-import time
 from contextlib import closing
 from pathlib import Path
 from typing import Any
@@ -24,6 +23,7 @@ from app.store.schema import NEWEST
 from core.errors import InputError, NotFoundError, StorageDamagedError, StorageError, StorageFullError
 from core.library.library import library
 from tests.app.store.test_old_database import old_database
+from tests.support.set_clock import SetClock
 from tests.support.spoilt_database import fill, overwrite, overwrite_table, service_on
 
 
@@ -161,20 +161,16 @@ def test_a_new_database_needs_no_backup_to_begin(tmp_path: Path) -> None:
 
 
 def test_a_backup_is_made_once_a_day_and_only_of_something_new(tmp_path: Path) -> None:
-    with closing(Database(tmp_path / "studio.sqlite3")) as database:
+    clock = SetClock()
+    with closing(Database(tmp_path / "studio.sqlite3", clock)) as database:
         keeper = keeper_of(database)
         keeper.look()
         (first,) = found_backups(tmp_path)
         keeper.look()
-        assert found_backups(tmp_path) == (first,)
-        yesterday = time.time() - database_keeper.DAY_SECONDS - 1
-        for path in tmp_path.glob("studio.sqlite3*"):
-            os.utime(path, (yesterday - 10, yesterday - 10))
-        os.utime(first.path, (yesterday, yesterday))
+        clock.pass_seconds(database_keeper.DAY_SECONDS + 1)
         keeper.look()
-        assert len(found_backups(tmp_path)) == 1
+        assert found_backups(tmp_path) == (first,)
         database.put_result("x", {})
-        first.path.rename(first.path.with_name(f"studio-2026-01-01-000000-{DAILY}.sqlite3"))
         keeper.look()
         assert len(found_backups(tmp_path)) == 2
 

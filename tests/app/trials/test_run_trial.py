@@ -29,7 +29,7 @@ def seen(seconds: float, begin: float = 0.0) -> VideoTrack:
     times = np.arange(begin, seconds, 1.0 / RATE)
     feet = np.repeat(np.array([[[0.04, 0.0], [0.0, 0.04], [-0.04, 0.0], [0.0, -0.04]]]), len(times), axis=0)
     nothing = np.zeros((len(times), 4), dtype=np.bool_)
-    return VideoTrack(FootTrack(times, feet, nothing), nothing, nothing, RATE, nothing[:, 0])
+    return VideoTrack(FootTrack(times, feet, nothing), nothing, nothing, nothing[:, 0])
 
 
 def cut_short(record: RunRecord, count: int) -> RunRecord:

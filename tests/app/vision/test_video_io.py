@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.vision.tracking import VideoTrack, missing_remarks, track_of_pixels, track_video
-from app.vision.video_io import VideoFile
+from app.vision.video_file import VideoFile
 from core.errors import InputError
 from core.vision import image_header as picture_size
 from core.vision.camera import FOOT_COLOURS
@@ -40,7 +40,7 @@ def found(video: Path) -> VideoTrack:
 
 @pytest.mark.heavy
 def test_feet_are_found_within_half_a_millimetre(found: VideoTrack) -> None:
-    assert found.frame_rate == pytest.approx(RATE)
+    assert found.track.frame_rate == pytest.approx(RATE)
     away = np.linalg.norm(found.track.feet - TRACK.feet, axis=2)
     assert np.median(away, axis=0).max() <= 0.0005
     assert np.quantile(away[~found.track.filled], 0.99) <= 0.001

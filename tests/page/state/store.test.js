@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { acceptView, checkGone, createStore } from "../../../app/static/state/store.js";
+import { acceptView, checkGone, createStore, withJob } from "../../../app/static/state/store.js";
 
 test("a check that no edit took away is not said to be gone by one", () => {
   const store = createStore({ selected: "walk" });
@@ -17,4 +17,17 @@ test("a check that no edit took away is not said to be gone by one", () => {
   assert.equal(simulated, "the gait was simulated again after the check");
   assert.equal(why({ stamp: 3, revision: 7 }), "the plan was computed again after the check");
   assert.equal(why({ stamp: 4, revision: 8, simulation }), "the gait changed");
+});
+
+test("the newest job is the first one though the clock was set back, and stays in its place", () => {
+  const jobs = [
+    { id: "a", number: 1, created: 1000 },
+    { id: "b", number: 2, created: 7 },
+    { id: "c", number: 3, created: 500 },
+  ].reduce(withJob, []);
+  const changed = withJob(jobs, { id: "b", number: 2, created: 7, state: "done" });
+  assert.deepEqual(
+    changed.map(({ id }) => id),
+    ["c", "b", "a"],
+  );
 });

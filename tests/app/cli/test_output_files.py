@@ -1,0 +1,123 @@
+"""`-o` of the commands: files are replaced, devices and pipes written through, companions stand by files."""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import footfall
+from core.wire.waypoints import parse_waypoint_csv
+from tests.support.command import run
+from tests.support.studio_process import PROJECT
+
+
+@pytest.fixture(scope="module")
+def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("motion") / "walk.csv"
+    footfall.plan("walk-manual-0").save(path)
+    return path
+
+
+def words_of(command: str, motion: Path) -> tuple[str, ...]:
+    return {
+        "manual": ("manual", "walk"),
+        "waypoints": ("waypoints", str(motion)),
+        "export": ("export", str(motion), "--format", "csv"),
+        "import": ("import", str(motion)),
+        "atlas export": ("atlas", "export", "deltawalker-small"),
+    }[command]
+
+
+@pytest.mark.parametrize("command", ["manual", "waypoints", "export", "import", "atlas export"])
+@pytest.mark.parametrize("kind", ["device", "link to a device"])
+def test_a_device_is_written_through(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, motion: Path, command: str, kind: str
+) -> None:
+    path = Path(os.devnull)
+    if kind != "device":
+        path = tmp_path / "null.csv"
+        path.symlink_to(os.devnull)
+    before = os.stat(os.devnull)
+    status, out, _ = run(capsys, *words_of(command, motion), "-o", str(path))
+    after = os.stat(os.devnull)
+    assert status == 0
+    assert f"to {path}." in out or f"Wrote {path}." in out
+    assert stat.S_ISCHR(after.st_mode)
+    assert (before.st_ino, before.st_mode) == (after.st_ino, after.st_mode)
+    assert [entry.name for entry in tmp_path.iterdir()] == ([] if kind == "device" else ["null.csv"])
+    if command in ("manual", "waypoints", "export"):
+        assert "no companion was written" in out
+
+
+@pytest.mark.parametrize("command", ["manual", "waypoints", "export", "import", "atlas export"])
+def test_a_full_device_is_exit_2(capsys: pytest.CaptureFixture[str], motion: Path, command: str) -> None:
+    status, out, err = run(capsys, *words_of(command, motion), "-o", "/dev/full")
+    assert (status, out) == (2, "")
+    assert "/dev/full cannot be written: No space left on device." in err
+
+
+def test_a_link_and_its_companion(capsys: pytest.CaptureFixture[str], tmp_path: Path, motion: Path) -> None:
+    (tmp_path / "kept").mkdir()
+    link = tmp_path / "way.csv"
+    link.symlink_to("kept/target.csv")
+    assert run(capsys, "waypoints", str(motion), "-o", str(link))[0] == 0
+    assert link.is_symlink()
+    assert (tmp_path / "kept/target.csv").is_file()
+    assert (tmp_path / "way.footfall.json").is_file()
+    _, _, err = run(capsys, "check", str(link))
+    assert "no companion" not in err
+
+
+def test_standard_output_gets_the_file_alone(motion: Path) -> None:
+    said = subprocess.run(
+        [sys.executable, "-m", "app", *words_of("waypoints", motion), "--json", "-o", "/dev/stdout"],
+        cwd=PROJECT,
+        capture_output=True,
+        check=True,
+    )
+    assert parse_waypoint_csv(said.stdout.decode()).count == json.loads(said.stderr)["waypoints"]
+
+
+def test_a_process_substitution_gets_the_file(tmp_path: Path, motion: Path) -> None:
+    command = f'"$0" -m app waypoints "$1" -o >(cat > "{tmp_path}/copy.csv"); wait $!'
+    subprocess.run(["bash", "-c", command, sys.executable, str(motion)], cwd=PROJECT, check=True)
+    assert parse_waypoint_csv((tmp_path / "copy.csv").read_text()).count == 55
+
+
+def test_other_names_of_a_file_are_a_refusal(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, motion: Path
+) -> None:
+    (tmp_path / "way.csv").write_text("old")
+    (tmp_path / "backup.csv").hardlink_to(tmp_path / "way.csv")
+    status, _, err = run(capsys, "waypoints", str(motion), "-o", str(tmp_path / "way.csv"))
+    assert (status, (tmp_path / "backup.csv").read_text()) == (2, "old")
+    assert "2 names (hard links)" in err
+    assert not (tmp_path / "way.footfall.json").exists()
+
+
+def test_an_atlas_is_a_plain_file(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.sqlite"
+    os.mkfifo(pipe)
+    status, _, err = run(capsys, "atlas", "run", "-o", str(pipe), "--count", "10")
+    assert (status, "pipe.sqlite must be a plain file" in err) == (2, True)
+
+
+def test_python_saves_by_the_same_rules(tmp_path: Path, motion: Path) -> None:
+    plan = footfall.plan(motion)
+    for name in ("null.csv", "null.waypoints.csv"):
+        (tmp_path / name).symlink_to(os.devnull)
+        plan.save(tmp_path / name)
+    (tmp_path / "walk.json").symlink_to("target.json")
+    footfall.gait("walk").save(tmp_path / "walk.json")
+    names = sorted(entry.name for entry in tmp_path.iterdir())
+    assert names == ["null.csv", "null.waypoints.csv", "target.json", "walk.json"]
+    (tmp_path / "folder.csv").mkdir()
+    with pytest.raises(footfall.InputError, match="is a folder"):
+        plan.save(tmp_path / "folder.csv")
+    assert stat.S_ISCHR(os.stat(os.devnull).st_mode)

@@ -1,18 +1,18 @@
 """The JSON document of a camera's setup: pixels as they are, places in cm, colours as shares."""
 
-import json
 from typing import Annotated
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from core.errors import InputError
+from core.text.documents import json_content
 from core.vision.camera import FOOT_COLOURS, BlobLimits, ColourRange, Lens
 from core.vision.setup import FEET, SPOTS, CameraSetup
 
-Number = Annotated[float, Field(allow_inf_nan=False)]
-Share = Annotated[float, Field(ge=0.0, le=1.0)]
-Side = Annotated[int, Field(ge=16, le=16_384)]
+Number = Annotated[float, Field(allow_inf_nan=False, strict=True)]
+Share = Annotated[float, Field(ge=0.0, le=1.0, strict=True)]
+Side = Annotated[int, Field(ge=16, le=16_384, strict=True)]
 Row = tuple[Number, Number, Number]
 
 MOST_POINTS = 200
@@ -28,8 +28,8 @@ class LensDocument(_Document):
 
     matrix: tuple[Row, Row, Row]
     distortion: tuple[Number, Number, Number, Number, Number]
-    rms_px: float | None = Field(default=None, ge=0.0, allow_inf_nan=False)
-    boards: int | None = Field(default=None, ge=0)
+    rms_px: float | None = Field(default=None, ge=0.0, allow_inf_nan=False, strict=True)
+    boards: int | None = Field(default=None, ge=0, strict=True)
 
     def value(self) -> Lens:
         """The lens."""
@@ -114,9 +114,7 @@ def parse_setup(text: str, name: str) -> SetupDocument:
         InputError: naming the first field that is wrong.
     """
     try:
-        return SetupDocument.model_validate(json.loads(text))
-    except json.JSONDecodeError as error:
-        raise InputError(f"{name} is no JSON: {error.msg} in line {error.lineno}.", name) from None
+        return SetupDocument.model_validate(json_content(text, name))
     except ValidationError as error:
         first = error.errors()[0]
         field = ".".join(str(part) for part in first["loc"]) or name

@@ -22,7 +22,7 @@ from core.trials.iterations import (
 )
 from core.trials.movement import Movement, foot_movements, mean_movement, spread
 from core.vision.track import FootTrack
-from core.vision.track_csv import FRAME_RATE, PixelScale, parse_track_csv
+from core.vision.track_csv import FRAME_RATE, PixelScale, read_track_csv
 
 _COLUMNS = ("+x", "−x", "dx", "+y", "−y", "dy", "dist", "angle", "% err", "net", "net angle")
 
@@ -99,7 +99,10 @@ def _tracks(options: Namespace) -> Iterator[tuple[Path, FootTrack]]:
     if options.setup is None:
         rate = FRAME_RATE if options.frame_rate is None else options.frame_rate
         for path in options.files:
-            yield path, parse_track_csv(read_text(path), str(path), frame_rate=rate, pixels=_pixels(options))
+            read = read_track_csv(read_text(path), str(path), frame_rate=rate, pixels=_pixels(options))
+            for sentence in read.notes:
+                note(f"{path}: {sentence}")
+            yield path, read.track
         return
     # What reads videos takes a moment to load; track files do without it.
     from app.cli.track_video import read_setup, tracked

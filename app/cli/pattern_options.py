@@ -19,6 +19,7 @@ from core.patterns.problem import (
     index_halves,
     transition_cells,
 )
+from core.text.numbers import plain_whole
 
 PATTERN_RULES = {
     "--shortest-swing": ("shortest_swing", "samples that a swing lasts at least"),
@@ -137,15 +138,14 @@ def _parts(text: str | None) -> list[str]:
 
 def _foot(text: str, locked: Bools) -> int:
     """The index of a foot that is not locked yet."""
-    if not (text.isascii() and text.isdigit()):
+    try:
+        foot = plain_whole(text)
+    except ValueError:
         raise InputError(
             f"--locked has “{text}” where a foot's number belongs; write it such as 1,4.", "--locked"
-        )
-    if not 1 <= int(text) <= len(locked):
-        raise InputError(
-            f"--locked names foot {int(text)}; the feet are 1 to {len(locked)}.",
-            "--locked",
-        )
-    if locked[int(text) - 1]:
-        raise InputError(f"--locked names foot {int(text)} twice; name it once.", "--locked")
-    return int(text) - 1
+        ) from None
+    if not 1 <= foot <= len(locked):
+        raise InputError(f"--locked names foot {foot}; the feet are 1 to {len(locked)}.", "--locked")
+    if locked[foot - 1]:
+        raise InputError(f"--locked names foot {foot} twice; name it once.", "--locked")
+    return foot - 1

@@ -32,6 +32,7 @@ from core.gait.recording import AS_RECORDED, Recording, RecordingFit
 from core.motion.contact_timeline import ContactTimeline, bits_from_rows, rows_from_bits
 from core.robot.model import RobotModel, load_robot
 from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary, require_heights
+from core.text.documents import json_content
 
 FORMAT = "footfall-gait"
 MOST_BYTES = 2_000_000
@@ -53,13 +54,7 @@ def parse_gait(text: str | bytes, where: str = "gait") -> Gait:
     Raises:
         InputError: naming the field, what is wrong and what would be right.
     """
-    try:
-        content = json.loads(text)
-    except RecursionError as error:
-        raise InputError(f"{where} is nested too deeply to be a gait.", where) from error
-    except ValueError as error:
-        raise InputError(f"{where} is not JSON: {error}.", where) from error
-    return gait_from_content(content, where)
+    return gait_from_content(json_content(text, where), where)
 
 
 def gait_from_content(content: Any, where: str = "gait") -> Gait:

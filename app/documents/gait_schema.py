@@ -2,7 +2,8 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
 from core.gait.gait import Orientation
 from core.gait.options import OPTION_BOUNDS, GaitOptions
@@ -48,14 +49,24 @@ class _Model(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, field_title_generator=_title)
 
 
-Metres = Annotated[float, Field(description="m")]
-Radians = Annotated[float, Field(description="rad")]
+def _without_quotes(value: Any) -> Any:
+    if isinstance(value, str | bool):
+        raise PydanticCustomError("whole_number", "Input should be a whole number without quotes")
+    return value
+
+
+Number = Annotated[float, Field(strict=True)]
+"""A JSON number; a text that reads as one is none."""
+Whole = Annotated[int, BeforeValidator(_without_quotes)]
+"""A whole JSON number, such as 3 or 3.0."""
+Metres = Annotated[Number, Field(description="m")]
+Radians = Annotated[Number, Field(description="rad")]
 
 
 class TimelineModel(_Model):
     """Contact of each foot: a string of 1 (stance) and 0 (swing), foot 1 first; `locked` likewise."""
 
-    sample_time: float = _field("time between samples, s")
+    sample_time: Number = _field("time between samples, s")
     feet: list[str] = _field("a string a foot, a character a sample: 1 stance, 0 swing", min_length=1)
     locked: list[str] | None = _field("likewise: 1 where the cell is locked; null: none is", default=None)
 
@@ -71,17 +82,17 @@ class SegmentModel(_Model):
 class VocabularyModel(_Model):
     """What the names of a segment table mean."""
 
-    xy: dict[str, float] = _field("multiple of the step's displacement, by name")
-    z: dict[str, float] = _field("motor stroke of a centred foot, m, by name")
+    xy: dict[str, Number] = _field("multiple of the step's displacement, by name")
+    z: dict[str, Number] = _field("motor stroke of a centred foot, m, by name")
     segments: dict[str, SegmentModel] = _field("segments by name")
 
 
 class SegmentTableModel(_Model):
     """A row of segment names a foot, one iteration at direction 1."""
 
-    samples_per_segment: int = _field("samples of a segment, both its ends included")
-    repeat_from: int = _field("segment, counted from 1, with which the repeating part begins", default=1)
-    repeat_to: int | None = _field("its last segment; null: the last of the table", default=None)
+    samples_per_segment: Whole = _field("samples of a segment, both its ends included")
+    repeat_from: Whole = _field("segment, counted from 1, with which the repeating part begins", default=1)
+    repeat_to: Whole | None = _field("its last segment; null: the last of the table", default=None)
     link: list[list[str]] = _field("segments between two iterations, a row a foot", default_factory=list)
     feet: list[list[str]] = _field("segment names, a row a foot", min_length=1)
     definitions: VocabularyModel = _field("what the names mean")
@@ -90,39 +101,39 @@ class SegmentTableModel(_Model):
 class HeldModel(_Model):
     """Feet that are in the air on purpose at the ends of a gait, counted from 1."""
 
-    start: list[int] = _field("feet held up at the first sample", default_factory=list)
-    end: list[int] = _field("feet held up at the last sample", default_factory=list)
+    start: list[Whole] = _field("feet held up at the first sample", default_factory=list)
+    end: list[Whole] = _field("feet held up at the last sample", default_factory=list)
 
 
 class OptionsModel(_Model):
     """What the optimiser is asked, and how its answer is sent."""
 
-    clearance: float = _option("clearance", "how high each swing rises at least, m")
-    margin: float = _option("margin", "how far the centre of pressure stays inside the support polygon, m")
-    body_speed: float = _option("body_speed", "limit of the body's speed, m/s")
-    foot_speed: float = _option("foot_speed", "limit of each foot's speed, m/s")
-    plane_height: float = _option("plane_height", "actuator plane at the start, m")
+    clearance: Number = _option("clearance", "how high each swing rises at least, m")
+    margin: Number = _option("margin", "how far the centre of pressure stays inside the support polygon, m")
+    body_speed: Number = _option("body_speed", "limit of the body's speed, m/s")
+    foot_speed: Number = _option("foot_speed", "limit of each foot's speed, m/s")
+    plane_height: Number = _option("plane_height", "actuator plane at the start, m")
     workspace: Workspace = _option("workspace", "which form of reach holds")
     cost: Cost = _option("cost", "what is minimised")
-    phase_knots: int = _option(
+    phase_knots: Whole = _option(
         "phase_knots", "samples of each stance phase and of each swing of a drawn timeline"
     )
-    closing_knots: int = _option("closing_knots", "samples after the last swing of a drawn timeline")
-    end_plane_height: float | None = _option(
+    closing_knots: Whole = _option("closing_knots", "samples after the last swing of a drawn timeline")
+    end_plane_height: Number | None = _option(
         "end_plane_height", "actuator plane at the goal, m; null: as at the start"
     )
-    friction: float | None = _option("friction", "coefficient of the friction cones, no unit; null: none")
-    motor_speed: float | None = _option("motor_speed", "limit of each motor's speed, m/s; null: none")
-    motor_acceleration: float | None = _option(
+    friction: Number | None = _option("friction", "coefficient of the friction cones, no unit; null: none")
+    motor_speed: Number | None = _option("motor_speed", "limit of each motor's speed, m/s; null: none")
+    motor_acceleration: Number | None = _option(
         "motor_acceleration", "limit of each motor's acceleration, m/s²; null: none"
     )
     boundary: Boundary = _option("boundary", "from rest to rest, or a cycle")
     turning: HeadingProfile = _option("turning", "when a gait with yaw turns the body")
-    merge: float = _option(
+    merge: Number = _option(
         "merge",
         "waypoints are left out within this distance of the motors' path, m; 0: every sample is sent",
     )
-    stop_bound: float | None = _option(
+    stop_bound: Number | None = _option(
         "stop_bound",
         "longest time before the robot hears Stop, s; moves are cut for it; null: as long as a move takes",
     )
@@ -140,7 +151,7 @@ class RecordingFitModel(_Model):
     feet: Metres = _field(
         "added to the heights of the feet, m", default=RecordingFit.feet, json_schema_extra=_RAISED_BOUNDS
     )
-    scale: float = _field(
+    scale: Number = _field(
         "factor of the ways of body and feet from the first sample on, no unit",
         default=RecordingFit.scale,
         json_schema_extra={"minimum": LEAST_SCALE, "maximum": MOST_SCALE},
@@ -173,12 +184,12 @@ class FoundPosesModel(_Model):
     """Poses as a solver has found them; the motors go straight from one to the next."""
 
     answers: str = _field("SHA-256 of what was asked; poses for anything else are solved again")
-    step: float = _field("travel of the body a cycle, m")
+    step: Number = _field("travel of the body a cycle, m")
     bodies: list[tuple[Metres, Metres, Metres]] = _field(
         "point of the body axis in the actuator plane at each pose, m; z above the standing feet's platforms"
     )
     feet: list[list[tuple[Metres, Metres, Metres]]] = _field("platform centre of each foot at each pose, m")
-    headings: list[float] | None = _field(
+    headings: list[Number] | None = _field(
         "turn of the body at each pose, rad. Left out where it is 0 throughout", default=None
     )
 
@@ -186,7 +197,7 @@ class FoundPosesModel(_Model):
 class PinnedPoseModel(_Model):
     """A pose whose body position is fixed, as an offset from where an even travel has the body."""
 
-    pose: int = _field(
+    pose: Whole = _field(
         "its number, counted from 1; neither the first nor the last", json_schema_extra={"minimum": 2}
     )
     along: Metres = _field("in the direction of travel, m", json_schema_extra=_PINNED_BOUNDS)
@@ -199,12 +210,12 @@ class PosesModel(_Model):
     free_step: bool = _field(
         "whether the step, or on the spot the turn, is that of the fastest gait", default=Poses.free_step
     )
-    slip: float = _pose_limit("slip", "how far a standing foot may be off its foothold within a move, m")
-    shoe_distance: float = _pose_limit("shoe_distance", "least distance between the middles of two feet, m")
-    arm_distance: float = _pose_limit(
+    slip: Number = _pose_limit("slip", "how far a standing foot may be off its foothold within a move, m")
+    shoe_distance: Number = _pose_limit("shoe_distance", "least distance between the middles of two feet, m")
+    arm_distance: Number = _pose_limit(
         "arm_distance", "least room between the arms of neighbouring legs, m; 0: they may touch"
     )
-    sway: float = _field(
+    sway: Number = _field(
         "how far the heading may leave an even turn, rad. Left out where it is 0",
         default=Poses.sway,
         json_schema_extra={"minimum": 0.0, "maximum": MOST_SWAY},
@@ -227,7 +238,7 @@ class ProvenanceModel(_Model):
     method: str = _field("how it was computed, such as nlp")
     solver: str = _field("the solver's name and version")
     status: str = _field("what the independent checker made of it")
-    seconds: float = _field("time in the solver, s")
+    seconds: Number = _field("time in the solver, s")
     made: str = _field("when, ISO 8601 with its offset from UTC")
     program: str = _field("version of the program")
 
@@ -240,12 +251,12 @@ class SingleGaitModel(_Model):
     name: str = _field("what a person calls it")
     robot: str = _field("name of the robot's parameters file", default="deltawalker")
     orientation: Orientation = _field("FB moves along the diagonals, FBS along the axes (thesis 3.2)")
-    direction: int = _field("1 to 4 (thesis Table 3.1)", default=1)
-    order: list[int] = _field("feet in the order of their steps at direction 1, counted from 1")
+    direction: Whole = _field("1 to 4 (thesis Table 3.1)", default=1)
+    order: list[Whole] = _field("feet in the order of their steps at direction 1, counted from 1")
     step: tuple[Metres, Metres, Radians] = _field(
         "dx, dy in m and yaw in rad of the body an iteration, at direction 1"
     )
-    iterations: int = _field("how often every foot steps", default=1)
+    iterations: Whole = _field("how often every foot steps", default=1)
     timeline: TimelineModel = _field(
         "contact of the robot's own feet, every iteration and the closing stance"
     )
@@ -275,7 +286,7 @@ class SequencePartModel(_Model):
     """A gait within a sequence."""
 
     gait: SingleGaitModel = _field("the gait, whole")
-    times: int = _field("how often it runs, 1 to 20", default=1)
+    times: Whole = _field("how often it runs, 1 to 20", default=1)
     source: str | None = _field("id of the gait that it was copied from; null: not known", default=None)
     restarts: bool = _field(
         "true: each repetition is the whole gait with its own motion, from rest to rest. Left out: its "

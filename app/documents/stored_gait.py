@@ -1,13 +1,13 @@
 """Gait documents that the studio kept itself, also those of its earlier versions, which had other bounds."""
 
-import json
 from dataclasses import dataclass
 from typing import Any
 
 from app.common.json import Json
-from app.documents.gait_json import gait_from_content, parse_gait
+from app.documents.gait_json import gait_from_content
 from core.gait.gait import Gait
 from core.gait.options import OPTION_BOUNDS, sayable
+from core.text.documents import json_content
 
 _KNOTS = ("phase_knots", "closing_knots")
 """Options without bounds in earlier versions; nothing but a timeline that is drawn anew depends on them."""
@@ -32,11 +32,7 @@ def stored_gait(text: str | bytes, where: str = "gait") -> StoredGait:
     Raises:
         InputError: it cannot be read.
     """
-    try:
-        content = json.loads(text)
-    except (RecursionError, ValueError):
-        return StoredGait(parse_gait(text, where))
-    return stored_content(content, where)
+    return stored_content(json_content(text, where), where)
 
 
 def stored_content(content: Any, where: str = "gait") -> StoredGait:

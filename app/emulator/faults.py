@@ -13,6 +13,7 @@ from typing import Protocol, Self
 
 from app.emulator.firmware import Firmware
 from core.errors import InputError
+from core.text.numbers import plain_whole
 from core.wire.messages import MOTORS
 
 DROP_CHANCE, GARBLE_CHANCE = 0.002, 0.002
@@ -98,9 +99,11 @@ class FaultRequest:
         name, _, motors = text.partition(":")
         if name not in list(Fault):
             raise InputError(f"There is no fault {name}; choose one of {', '.join(Fault)}.", "fault")
-        if motors and not all(one.strip().isdecimal() for one in motors.split(",")):
-            raise InputError(f"{motors} are no motors; write as in {name}:4.", "fault")
-        return cls(Fault(name), tuple(int(one) - 1 for one in motors.split(",")) if motors else ())
+        try:
+            numbers = tuple(plain_whole(one) - 1 for one in motors.split(",")) if motors else ()
+        except ValueError:
+            raise InputError(f"{motors} are no motors; write as in {name}:4.", "fault") from None
+        return cls(Fault(name), numbers)
 
 
 class Spoiler(Protocol):

@@ -1,6 +1,5 @@
 """From a file of another form to a gait document."""
 
-import json
 from dataclasses import replace
 
 from app.common.json import Json
@@ -13,6 +12,8 @@ from core.motion.phase_list import PHASES_FORMAT, parse_phases
 from core.recorded.recorded_gait import DescribedGait, gait_of_motion, gait_of_timeline
 from core.recorded.recorded_motion import fit_words, recorded_motion
 from core.robot.model import load_robot
+from core.text.decoding import MARK, without_mark
+from core.text.documents import json_content
 from core.wire.waypoints import is_waypoint_text
 
 NAMELESS = "Imported gait"
@@ -50,13 +51,13 @@ def read_gait(
     Raises:
         InputError: naming line, column, field, foot or phase of what is wrong.
     """
-    if text.lstrip("\ufeff \t\r\n").startswith("{"):
+    if text.lstrip(f"{MARK} \t\r\n").startswith("{"):
         for field, is_chosen in (("robot", robot is not None), ("within_stroke", fit != AS_RECORDED)):
             if is_chosen:
                 raise InputError(
                     f"{field} is chosen for trajectories and waypoints only; this is neither.", field
                 )
-        return _from_json(text.removeprefix("\ufeff"), where, name, sample_time)
+        return _from_json(without_mark(text), where, name, sample_time)
     if sample_time is not None:
         raise InputError("A sample time is chosen for phase lists only; this is none.", "sample_time")
     form = RecordingForm.WAYPOINTS if is_waypoint_text(text) else RecordingForm.TRAJECTORY
@@ -105,7 +106,7 @@ def _name_of(file: str) -> str:
 
 
 def _from_json(text: str, where: str, name: str | None, sample_time: float | None) -> DescribedGait:
-    content = _parsed(text, where)
+    content: Json = json_content(text, where)
     kind = content.get("format")
     if kind == PHASES_FORMAT:
         return gait_of_timeline(parse_phases(text, sample_time, where), name or _name_of(where))
@@ -119,13 +120,3 @@ def _from_json(text: str, where: str, name: str | None, sample_time: float | Non
         f'{where} has the format {kind!r}; a gait document has "{FORMAT}", a phase list "{PHASES_FORMAT}".',
         f"{where}.format",
     )
-
-
-def _parsed(text: str, where: str) -> Json:
-    try:
-        content: Json = json.loads(text)
-    except RecursionError as error:
-        raise InputError(f"{where} is nested too deeply to be a gait.", where) from error
-    except ValueError as error:
-        raise InputError(f"{where} is not JSON: {error}.", where) from error
-    return content

@@ -96,9 +96,10 @@ def exportable_plan(stem: str, gait: Gait, plan: Plan) -> Exportable:
     motion = _motion_of(plan)
     recording = gait.recorded if plan.source is PlanSource.RECORDED else None
     if isinstance(motion, Motion) and recording is not None and recording.form is RecordingForm.TRAJECTORY:
-        stated = recorded_motion(recording, plan.model).read.has_companion
-        own_file = recording if recording.fit == AS_RECORDED else None
-        motion = replace(motion, recording=own_file, is_stated=stated)
+        read = recorded_motion(recording, plan.model).read
+        own_file = recording if recording.fit == AS_RECORDED and read.is_usual else None
+        layout = None if read.is_usual else read.layout
+        motion = replace(motion, recording=own_file, is_stated=read.has_companion, layout=layout)
     return Exportable(stem, gait, motion)
 
 

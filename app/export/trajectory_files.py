@@ -6,6 +6,7 @@ from app.store.named_file import write_named
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.motion.trajectory_npz import MotionFile, parse_npz
+from core.text.decoding import MOST_BYTES, text_of, without_mark
 from core.wire.trajectory_csv import (
     TrajectoryFile,
     format_companion,
@@ -23,19 +24,19 @@ def read_text(path: Path) -> str:
     """A text file's content, without the mark of byte order.
 
     Raises:
-        InputError: it is absent, not readable, or no text.
+        InputError: it is absent, not readable, too large, or no text in UTF-8.
     """
-    return read_whole_text(path).removeprefix("\ufeff")
+    return without_mark(read_whole_text(path))
 
 
 def read_whole_text(path: Path) -> str:
     """A text file's content to the last character, whatever ends its lines (see `read_text`)."""
     try:
-        return path.read_bytes().decode()
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise InputError(f"{path} cannot be read: {error.strerror}.", str(path)) from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path} is not a text file in UTF-8.", str(path)) from error
+    return text_of(content, str(path))
 
 
 def companion_path(path: Path) -> Path:

@@ -24,8 +24,7 @@ from core.wire.waypoints import (
     Waypoints,
     format_waypoint_csv,
     is_waypoint_text,
-    parse_waypoint_csv,
-    waypoint_legs,
+    read_waypoint_csv,
 )
 
 ROBOT = "deltawalker"
@@ -66,7 +65,8 @@ def read_way_file(path: Path, robot: str | None = None) -> WayFile:
         InputError: it is malformed, or its companion contradicts it.
     """
     text = read_text(path)
-    waypoints = parse_waypoint_csv(text, waypoint_legs(text, path.name), path.name)
+    file = read_waypoint_csv(text, path.name)
+    waypoints = file.waypoints
     companion: WaypointCompanion | str | None = None
     if companion_path(path).exists():
         companion = parse_waypoint_companion(read_text(companion_path(path)), text, path.name)
@@ -82,9 +82,9 @@ def read_way_file(path: Path, robot: str | None = None) -> WayFile:
         if companion.motion is not None:
             require_same_strokes(model, companion.motion, waypoints, path.name)
         cut = clipped_from_content(companion.origin.get("clipped_mm", []), waypoints.strokes.shape)
-        return WayFile(model, waypoints, companion.motion, clipped=cut)
+        return WayFile(model, waypoints, companion.motion, file.notes, cut)
     assumptions = () if companion is None else (companion,)
-    return WayFile(model, waypoints, None, assumptions)
+    return WayFile(model, waypoints, None, (*file.notes, *assumptions))
 
 
 def checked_way(model: RobotModel, motion: Trajectory, file: WayFile) -> CheckedPlan:

@@ -1,7 +1,5 @@
 """The published table of trials and its trajectories, as gaits that physics is fitted to."""
 
-import csv
-import io
 import math
 import re
 from collections.abc import Mapping
@@ -20,6 +18,8 @@ from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
 from core.robot.kinematics import free_strokes
 from core.robot.model import RobotModel
+from core.text.numbers import shortened
+from core.text.tables import Table, read_table
 from core.trials.displacement import Displacement, MeasuredWalk
 from core.wire.trajectory_csv import parse_trajectory_csv
 from core.wire.waypoint_merging import plan_of_knots
@@ -49,30 +49,26 @@ def walks_of_table(
     Raises:
         InputError: a row or a trajectory is missing or is none.
     """
-    try:
-        rows = list(csv.DictReader(io.StringIO(table), skipinitialspace=True))
-    except csv.Error as error:
-        raise InputError(
-            f"The table cannot be read ({error}). Take trajectory_averages.csv.", "table"
-        ) from None
-    if not rows or rows[0].get("Traj") is None:
+    read = read_table(table, "table")
+    if "Traj" not in read.head or len(read.rows) < 2:
         raise InputError(
             "The table has no column Traj, or no row below it. Take trajectory_averages.csv.", "table"
         )
     files = {PurePath(name).stem: (name, text) for name, text in trajectories.items()}
-    return tuple(_walk(row, files, model, iterations) for row in rows)
+    return tuple(_walk(read, row, files, model, iterations) for row in range(1, len(read.rows)))
 
 
 def _walk(
-    row: Mapping[str, str | None],
+    table: Table,
+    row: int,
     files: Mapping[str, tuple[str, str]],
     model: RobotModel,
     iterations: int,
 ) -> Walk:
-    label = str(row["Traj"]).strip()
+    label = _cell(table, row, "Traj").strip()
     found = _ROW.fullmatch(label)
     if found is None:
-        raise InputError(f"The table's row “{label}” is none of TrajAa to TrajDd.", "table")
+        raise InputError(f"The table's row “{shortened(label)}” is none of TrajAa to TrajDd.", "table")
     (begin, kind), size = KINDS[found[1]], found[2]
     stem = f"{begin}_{size}"
     if stem not in files:
@@ -83,22 +79,23 @@ def _walk(
     feet = motion.feet_world[..., :2]
     heading = heading_of(feet, name)
     wanted = iterations * float(np.hypot(*(feet[-1] - feet[0]).mean(axis=0)))
-    dx, dy, distance = (_number(row, column, label) for column in COLUMNS)
+    dx, dy, distance = (_number(table, row, column) for column in COLUMNS)
     displacement = Displacement(distance / CM, math.atan2(dy, dx))
     step_cm = wanted * CM / iterations
     measured = MeasuredWalk(f"{kind}, {step_cm:.1f} cm", kind, wanted, displacement, TRIALS)
     return Walk(measured, problem, iterations, heading, cut)
 
 
-def _number(row: Mapping[str, str | None], column: str, label: str) -> float:
-    text = (row.get(column) or "").strip()
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise InputError(f"Row {label} of the table has “{text}” for {column}; a number is needed.", "table")
-    return value
+def _cell(table: Table, row: int, column: str) -> str:
+    """A cell; empty where the row ends before it."""
+    return dict(zip(table.head, table.rows[row], strict=False)).get(column, "")
+
+
+def _number(table: Table, row: int, column: str) -> float:
+    if not _cell(table, row, column).strip():
+        line = table.lines[row]
+        raise InputError(f"Line {line} of the table has no number for {column}; write it.", f"table:{line}")
+    return table.number(row, table.head.index(column))
 
 
 def problem_within_range(

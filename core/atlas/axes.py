@@ -9,6 +9,7 @@ from typing import Any
 from core.errors import InputError
 from core.pose_gaits.pose_problem import MOST_TURN, POSE_BOUNDS
 from core.problem.motion_problem import PLANE_HEIGHTS
+from core.text.numbers import plain_whole
 
 CHOICES = "choices"
 ROBOT = "robot."
@@ -146,7 +147,7 @@ def _feet(written: Any) -> tuple[int, ...]:
     if isinstance(written, int):
         return (_whole(written),)
     parts = [part for part in written.split(",") if part.strip()] if isinstance(written, str) else written
-    return tuple(_whole(int(part) if isinstance(part, str) else part) for part in parts)
+    return tuple(_whole(plain_whole(part) if isinstance(part, str) else part) for part in parts)
 
 
 def _order(written: Any) -> tuple[int, ...] | str:

@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import tomllib
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
@@ -20,6 +19,7 @@ from core.errors import InputError
 from core.gait.foot_orders import named_orders
 from core.gait.gait import Orientation
 from core.robot.model import RobotModel, load_robot, robot_from_table, robot_table
+from core.text.documents import toml_content
 
 MOST_SEED = 2**31 - 1
 ALL_ORDERS_LEGS = 5
@@ -141,16 +141,13 @@ def _place(table: dict[str, Any], name: str, key: str) -> tuple[dict[str, Any], 
     return section, last
 
 
-def space_from_toml(text: str, where: str) -> AtlasSpace:
+def space_from_toml(text: str | bytes, where: str) -> AtlasSpace:
     """Reads a space file.
 
     Raises:
-        InputError: it is no TOML, or `space_from_table` refuses it.
+        InputError: it is no TOML of plain numbers, or `space_from_table` refuses it.
     """
-    try:
-        return space_from_table(tomllib.loads(text), where)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{where} is no TOML file: {error}.", where) from error
+    return space_from_table(toml_content(text, where), where)
 
 
 def space_from_table(table: Mapping[str, Any], where: str) -> AtlasSpace:

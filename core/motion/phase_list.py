@@ -15,6 +15,7 @@ import numpy as np
 from core.arrays import Bools
 from core.errors import InputError
 from core.motion.contact_timeline import MAX_SAMPLES, ContactTimeline
+from core.text.documents import json_content
 
 PHASES_FORMAT = "footfall-phases"
 WHOLE = 1e-6
@@ -80,10 +81,7 @@ def _sample_time(content: dict[str, Any], sample_time: float | None, name: str) 
 
 
 def _content(text: str, name: str) -> dict[str, Any]:
-    try:
-        content = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{name} is not JSON: {error}.", name) from error
+    content = json_content(text, name)
     if not isinstance(content, dict) or content.get("format") != PHASES_FORMAT:
         raise InputError(f'{name} is no phase list: "format" must be "{PHASES_FORMAT}".', f"{name}.format")
     if content.get("version") != 1 or isinstance(content["version"], bool):

@@ -20,7 +20,7 @@ from core.wire.trajectory_csv import (
     parse_trajectory_csv,
     standard_layout,
 )
-from core.wire.waypoints import parse_waypoint_csv, waypoint_legs
+from core.wire.waypoints import read_waypoint_csv
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,11 +155,11 @@ def _says(timeline: ContactTimeline, trajectory: Trajectory) -> bool:
 
 
 def _of_waypoints(recording: Recording, model: RobotModel | None) -> TrajectoryFile:
-    legs = waypoint_legs(recording.text, recording.file)
-    waypoints = parse_waypoint_csv(recording.text, legs, recording.file)
+    read = read_waypoint_csv(recording.text, recording.file)
+    waypoints, legs = read.waypoints, read.waypoints.strokes.shape[1]
     if model is None or model.leg_count != legs:
         model = load_robot(robot_with(legs))
     motion = motion_of_waypoints(model, waypoints)
     # Times, heading and contact are all that can be known of the motion, and its companion may say them.
     layout = standard_layout(waypoints.count)
-    return TrajectoryFile(motion.trajectory, motion.assumptions, layout, has_companion=True)
+    return TrajectoryFile(motion.trajectory, (*read.notes, *motion.assumptions), layout, has_companion=True)

@@ -7,6 +7,7 @@ import numpy as np
 
 from core.arrays import Floats
 from core.errors import InputError
+from core.text.tables import Table, read_table
 from core.vision.track import FootTrack, filled_track
 
 FRAME_RATE = 13.0
@@ -32,13 +33,26 @@ class PixelScale:
             raise InputError(f"One pixel is {self.metres} m; it must be more than 0.", "scale")
 
 
-def parse_track_csv(
+@dataclass(frozen=True)
+class TrackFile:
+    """A track's file as read.
+
+    Args:
+        track: the file's.
+        notes: sentences on what was unusual in the file's form.
+    """
+
+    track: FootTrack
+    notes: tuple[str, ...]
+
+
+def read_track_csv(
     text: str,
     name: str = "track",
     *,
     frame_rate: float = FRAME_RATE,
     pixels: PixelScale | None = None,
-) -> FootTrack:
+) -> TrackFile:
     """Reads a foot track.
 
     In pixel files 0,0 is a gap, as the lab's tracker writes it; in files in centimetres it is a position, and
@@ -53,14 +67,25 @@ def parse_track_csv(
     Raises:
         InputError: naming line and column of the first thing that is wrong.
     """
-    lines = text.removeprefix("\ufeff").replace("\r\n", "\n").rstrip("\n").split("\n")
-    feet = _feet_of_header(lines[0], name)
-    if len(lines) < 3:
-        raise InputError(f"{name} holds {len(lines) - 1} frames; a track needs at least two.", name)
-    rows = np.array([_row(line, feet, f"{name}:{number}") for number, line in enumerate(lines[1:], 2)])
-    positions = rows.reshape(len(rows), feet, 2)
-    times = np.arange(len(rows)) / frame_rate
-    return filled_track(times, positions / 100.0 if pixels is None else _scaled(positions, pixels), name)
+    table = read_table(text, name, has_empty_rows=True)
+    feet = _feet_of_header(table)
+    if len(table.rows) < 3:
+        raise InputError(f"{name} holds {len(table.rows) - 1} frames; a track needs at least two.", name)
+    positions = table.numbers(1, 2 * feet, has_gaps=True).reshape(-1, feet, 2)
+    times = np.arange(len(positions)) / frame_rate
+    moved = positions / 100.0 if pixels is None else _scaled(positions, pixels)
+    return TrackFile(filled_track(times, moved, name), table.notes)
+
+
+def parse_track_csv(
+    text: str,
+    name: str = "track",
+    *,
+    frame_rate: float = FRAME_RATE,
+    pixels: PixelScale | None = None,
+) -> FootTrack:
+    """The track of a file (see `read_track_csv`)."""
+    return read_track_csv(text, name, frame_rate=frame_rate, pixels=pixels).track
 
 
 def format_track_csv(track: FootTrack) -> str:
@@ -75,32 +100,12 @@ def format_track_csv(track: FootTrack) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _feet_of_header(line: str, name: str) -> int:
-    fields = [field.strip() for field in line.split(",")]
-    feet = len(fields) // 2
+def _feet_of_header(table: Table) -> int:
+    feet = len(table.head) // 2
     wanted = [f"{axis}_D{foot}" for foot in range(1, feet + 1) for axis in "XY"]
-    if not feet or fields != wanted:
-        raise InputError(f"{name}, line 1: the header must read X_D1, Y_D1, X_D2, Y_D2, …", f"{name}:1")
+    if not feet or table.head != wanted:
+        raise table.header_refusal("X_D1, Y_D1, X_D2, Y_D2, …")
     return feet
-
-
-def _row(line: str, feet: int, where: str) -> list[float]:
-    fields = line.split(",")
-    if len(fields) != 2 * feet:
-        raise InputError(f"{where}: {len(fields)} fields; a row has {2 * feet}, x and y a foot.", where)
-    return [_number(field.strip(), f"{where}, column {column}") for column, field in enumerate(fields, 1)]
-
-
-def _number(field: str, where: str) -> float:
-    if not field:
-        return math.nan
-    try:
-        number = float(field)
-    except ValueError:
-        raise InputError(f"{where}: “{field}” is not a number.", where) from None
-    if not math.isfinite(number):
-        raise InputError(f"{where}: {field} is not a finite number; leave a gap empty.", where)
-    return number
 
 
 def _scaled(positions: Floats, pixels: PixelScale) -> Floats:

@@ -22,6 +22,10 @@ import numpy as np
 from core.arrays import Bools, Floats, frozen_floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory, difference_velocities, turned_about_body
+from core.text.decoding import without_mark
+from core.text.documents import NotJsonError, json_content, json_numbers
+from core.text.numbers import plain_number
+from core.text.tables import Table, read_table
 from core.wire.waypoints import is_waypoint_text
 
 COMPANION_FORMAT = "footfall-trajectory"
@@ -33,8 +37,6 @@ DEFAULT_INTERVAL = 0.4
 """Time between knots where no companion says otherwise, s."""
 FARTHEST = 10_000.0
 """Numbers beyond this are no m or m/s of a gait; a guard against a slip of the pen in a file."""
-MOST_QUOTED = 40
-"""Letters of a file that a message repeats."""
 RINGS = (4, 6, 12)
 """Numbers of feet that a file may have without a companion; how many rows it has tells which."""
 STANDING_HEIGHT = 0.00025 + 1e-6
@@ -64,6 +66,7 @@ class TrajectoryFile:
         layout: of the file; written in it again, every number is the same to the last bit.
         has_companion: whether times, heading and contact were stated, not assumed.
         robot: name of the robot that the motion was made for; None where no companion names it.
+        is_usual: whether the file has commas between its numbers and decimal points, as the lab's have.
     """
 
     trajectory: Trajectory
@@ -71,6 +74,7 @@ class TrajectoryFile:
     layout: CsvLayout
     has_companion: bool
     robot: str | None = None
+    is_usual: bool = True
 
 
 def standard_layout(knots: int) -> CsvLayout:
@@ -164,22 +168,22 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
             f"{name} is a waypoint file (line 1 begins with duration_s); a trajectory is wanted here.",
             f"{name}:1",
         )
-    text = text.removeprefix("\ufeff")
-    header, table = _parse_table(text, name)
-    first_line = 1 if header is None else 2
+    text = without_mark(text)
+    cells, header, table = _parse_table(text, name)
     companion, assumptions = _companion(companion_text, text, name)
     rows = table.shape[0]
     legs = _leg_count(companion, rows, name)
     size = 3 + 3 * legs
     if rows not in (size, 2 * size):
         possible = RINGS if companion is None else (legs,)
-        found = f"{rows} rows of numbers from line {first_line} on"
-        raise InputError(f"{name}: {found}; {_wanted(possible)}.", name)
+        found = f"{rows} rows of numbers from line {cells.lines[0 if header is None else 1]} on"
+        raise InputError(f"{name}: {found}; {_wanted(possible)}.{_other_file(table)}", name)
     if table.shape[1] < 2:
         raise InputError(f"{name}: one sample; a trajectory needs at least two columns.", name)
     try:
         layout = CsvLayout(header, has_velocities=rows == 2 * size)
-        return _assemble(table, legs, companion, assumptions, layout)
+        read = _assemble(table, legs, companion, [*cells.notes, *assumptions], layout)
+        return replace(read, is_usual=not cells.notes)
     except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise InputError(
             f"The companion of {name} does not fit it: {error!r}. Write the file anew.", name
@@ -192,6 +196,16 @@ def _wanted(possible: tuple[int, ...]) -> str:
         f"{legs} feet have {3 + 3 * legs} (positions) or {6 + 6 * legs} (positions and velocities)"
         for legs in possible
     )
+
+
+def _other_file(table: Floats) -> str:
+    """Which other file a table may be that is no trajectory; empty where it is like none."""
+    motors = table.shape[1] - 1
+    if motors in [3 * legs for legs in RINGS]:
+        return (
+            f" If these are waypoints of {motors} motors, the first line must read duration_s,h1,…,h{motors}."
+        )
+    return ""
 
 
 def _leg_count(companion: dict[str, Any] | None, rows: int, name: str) -> int:
@@ -214,7 +228,7 @@ def _assemble(
     n, size = table.shape[1], 3 + 3 * legs
     columns = table.T
     body, feet = columns[:, :3], columns[:, 3:size].reshape(n, legs, 3)
-    times = np.asarray(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL, np.float64)
+    times = json_numbers(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL)
     if layout.has_velocities:
         body_velocity = columns[:, size : size + 3]
         feet_velocity = columns[:, size + 3 :].reshape(n, legs, 3)
@@ -222,7 +236,7 @@ def _assemble(
         body_velocity = difference_velocities(times, body)
         feet_velocity = difference_velocities(times, feet)
         assumptions.append("Velocities are missing; they are differences of the positions.")
-    contact = np.array(companion["contact"], dtype=np.bool_) if companion else standing_feet(feet)
+    contact = json_numbers(companion["contact"]).astype(np.bool_) if companion else standing_feet(feet)
     trajectory = Trajectory(times, body, np.zeros(n), feet, contact, body_velocity, feet_velocity)
     if companion:
         trajectory = _headed(trajectory, companion)
@@ -232,7 +246,7 @@ def _assemble(
 
 def _headed(trajectory: Trajectory, companion: dict[str, Any]) -> Trajectory:
     """The motion in the world, with the heading that the companion states."""
-    heading = np.asarray(companion["heading"], np.float64)
+    heading = json_numbers(companion["heading"])
     axes = companion.get("feet_axes", WORLD_AXES)
     if axes not in VERSIONS:
         raise ValueError(f"feet_axes is {axes!r}; it must be one of {', '.join(VERSIONS)}")
@@ -269,68 +283,39 @@ def _companion(text: str | None, csv_text: str, name: str) -> tuple[dict[str, An
     if text is None:
         return None, [f"{name} has no companion file; assumed: {assumed}"]
     try:
-        content: dict[str, Any] = json.loads(text)
+        content: dict[str, Any] = json_content(text, f"The companion of {name}")
         if content.get("format") != COMPANION_FORMAT or content.get("version") not in VERSIONS.values():
             return None, [f"The companion of {name} is of an unknown format; assumed: {assumed}"]
-    except (json.JSONDecodeError, AttributeError):
+    except (NotJsonError, AttributeError):
         return None, [f"The companion of {name} is not JSON; assumed: {assumed}"]
     if content.get("csv_sha256") != _digest(csv_text):
         return None, [f"The companion of {name} belongs to another version of it; assumed: {assumed}"]
     return content, []
 
 
-def _parse_table(text: str, name: str) -> tuple[str | None, Floats]:
-    """The first line where it is a header, and (rows, knots) numbers."""
-    lines = text.replace("\r\n", "\n").rstrip("\n").split("\n")
-    header = lines[0] if _is_header(lines[0]) else None
-    first = 0 if header is None else 1
-    rows: list[list[float]] = []
-    for number, line in enumerate(lines[first:], first + 1):
-        fields = line.rstrip(",").split(",")
-        row = [_number(field, f"{name}:{number}", column) for column, field in enumerate(fields, 1)]
-        if rows and len(row) != len(rows[0]):
-            raise InputError(
-                f"{name}, line {number}: {len(row)} numbers; the lines before have {len(rows[0])}.",
-                f"{name}:{number}",
-            )
-        rows.append(row)
-    if not rows:
+def _parse_table(text: str, name: str) -> tuple[Table, str | None, Floats]:
+    """The cells, the first line where it is a header, and (rows, knots) numbers."""
+    cells = read_table(text, name)
+    first = 1 if _is_header(cells.head) else 0
+    if len(cells.rows) - first >= 3 + 3 * RINGS[0]:
+        # No motion's first sample has x, y and z of body and feet count on.
+        cells = cells.without_count(first)
+        first = 1 if _is_header(cells.head) else 0
+    if len(cells.rows) <= first:
         raise InputError(f"{name} holds no numbers; a trajectory file has 15 or 30 rows of them.", name)
-    return header, np.array(rows)
+    table = cells.numbers(first)
+    for row, column in np.argwhere(np.abs(table) > FARTHEST)[:1].tolist():
+        number = cells.rows[first + row][column].strip()
+        fault = f"{number} is no position or speed of a gait; it must lie within ±{FARTHEST:g} m or m/s"
+        raise cells.refusal(first + row, column, fault)
+    line = ",".join(cells.head) if cells.notes else text.replace("\r\n", "\n").partition("\n")[0]
+    return cells, line if first else None, table
 
 
-def _is_header(line: str) -> bool:
-    """Whether a line is words (`Column1,…`) or counts 0, 1, 2, … as the lab's files do."""
+def _is_header(cells: list[str]) -> bool:
+    """Whether a row is words (`Column1,…`) or counts 0, 1, 2, … as the lab's files do."""
     numbers = []
-    for field in line.rstrip(",").split(","):
+    for cell in cells:
         with suppress(ValueError):
-            numbers.append(float(field))
-    if not numbers:
-        return True
-    return len(numbers) > 1 and numbers == list(range(line.rstrip(",").count(",") + 1))
-
-
-def _cut(field: str) -> str:
-    return field if len(field) <= MOST_QUOTED else f"{field[:MOST_QUOTED]}…"
-
-
-def _help(field: str) -> str:
-    return " Separate the numbers by commas." if set(field.strip()) & set("; \t") else ""
-
-
-def _number(field: str, where: str, column: int) -> float:
-    try:
-        # Python alone reads 1_000 as a number; a file with it is damaged.
-        number = float(field.replace("_", "?"))
-    except ValueError:
-        sentence = f"{where}, column {column}: “{_cut(field)}” is not a number.{_help(field)}"
-        raise InputError(sentence, where) from None
-    if not np.isfinite(number):
-        raise InputError(f"{where}, column {column}: {field} is not a finite number.", where)
-    if abs(number) > FARTHEST:
-        raise InputError(
-            f"{where}, column {column}: {field} is no position or speed of a gait; it must lie within "
-            f"±{FARTHEST:g} m or m/s.",
-            where,
-        )
-    return number
+            numbers.append(plain_number(cell))
+    return not numbers or (len(numbers) > 1 and numbers == list(range(len(cells))))

@@ -15,6 +15,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.model import RobotModel
+from core.text.documents import NotJsonError, json_content, json_numbers
 from core.wire.waypoints import Waypoints
 
 FORMAT = "footfall-waypoints"
@@ -74,9 +75,9 @@ def parse_waypoint_companion(text: str, csv_text: str, name: str) -> WaypointCom
         InputError: it is bound to this file, and damaged.
     """
     try:
-        content = json.loads(text)
+        content = json_content(text, f"The companion of {name}")
         is_known = content.get("format") == FORMAT and content.get("version") == 1
-    except (RecursionError, ValueError, AttributeError):
+    except (NotJsonError, AttributeError):
         return f"The companion of {name} is no JSON object, so it is left aside."
     if not is_known:
         return f"The companion of {name} is of an unknown format, so it is left aside."
@@ -85,7 +86,7 @@ def parse_waypoint_companion(text: str, csv_text: str, name: str) -> WaypointCom
     try:
         return WaypointCompanion(
             robot=str(content["robot"]),
-            stop_bound=None if content["stop_bound"] is None else float(content["stop_bound"]),
+            stop_bound=None if content["stop_bound"] is None else float(json_numbers(content["stop_bound"])),
             origin=dict(content["origin"]),
             motion=None if content["motion"] is None else _motion(content["motion"]),
         )
@@ -120,9 +121,9 @@ def require_same_strokes(model: RobotModel, motion: Trajectory, waypoints: Waypo
 
 def _motion(content: dict[str, Any]) -> Trajectory:
     def numbers(key: str) -> Floats:
-        return np.array(content[key], dtype=np.float64)
+        return json_numbers(content[key])
 
-    contact = np.array(content["contact"], dtype=np.bool_)
+    contact = numbers("contact").astype(np.bool_)
     return Trajectory(numbers("times"), numbers("body"), numbers("heading"), numbers("feet"), contact)
 
 

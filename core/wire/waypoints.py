@@ -1,13 +1,18 @@
 """Waypoints: the motor strokes that go to the robot, one row a message."""
 
 import hashlib
+import re
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.arrays import Floats, frozen_floats
 from core.errors import InputError
+from core.text.decoding import without_mark
+from core.text.tables import Table, read_table
 
+_BEGINNING = re.compile(r'\s*(?:"?sep=.[^\r\n]*[\r\n]+)?(?:[^,;\t\r\n]*[,;\t])?\s*"?duration_s\b')
+"""How a waypoint file begins; a column that counts the rows may stand first."""
 MM_DECIMALS = 4
 """Decimals of a millimetre in files and on the wire (docs/firmware.md)."""
 
@@ -61,7 +66,45 @@ def format_waypoint_csv(waypoints: Waypoints) -> str:
 
 def is_waypoint_text(text: str) -> bool:
     """Whether a text begins as a waypoint file does."""
-    return text.removeprefix("\ufeff").startswith("duration_s")
+    return _BEGINNING.match(without_mark(text)) is not None
+
+
+@dataclass(frozen=True, eq=False)
+class WaypointFile:
+    """A waypoint file as read.
+
+    Args:
+        waypoints: the file's.
+        notes: sentences on what was unusual in the file's form.
+    """
+
+    waypoints: Waypoints
+    notes: tuple[str, ...]
+
+
+def read_waypoint_csv(text: str, name: str = "waypoint file", legs: int | None = None) -> WaypointFile:
+    """Reads a waypoint file.
+
+    Args:
+        text: the file's text.
+        name: the file's name, for messages.
+        legs: number of legs that the file must have; None where its header says.
+
+    Raises:
+        InputError: naming line and column of the first thing that is wrong.
+    """
+    table = read_table(text, name)
+    legs = _legs_of_header(table, legs)
+    if len(table.rows) == 1:
+        raise InputError(f"{name} has a header but no waypoint; add at least one row.", name)
+    numbers = table.numbers(1, 3 * legs + 1)
+    waypoints = Waypoints(numbers[:, 1:].reshape(-1, legs, 3) / 1000.0, numbers[:, 0])
+    return WaypointFile(waypoints, table.notes)
+
+
+def parse_waypoint_csv(text: str, legs: int = 4, name: str = "waypoint file") -> Waypoints:
+    """The waypoints of a file that must have a number of legs (see `read_waypoint_csv`)."""
+    return read_waypoint_csv(text, name, legs).waypoints
 
 
 def waypoint_legs(text: str, name: str = "waypoint file") -> int:
@@ -70,56 +113,17 @@ def waypoint_legs(text: str, name: str = "waypoint file") -> int:
     Raises:
         InputError: the header is not one of a waypoint file.
     """
-    header = _header_of(text)
-    motors = header.count(",")
-    if motors < 3 or motors % 3 or header != _header(motors // 3):
-        raise InputError(
-            f"{name}, line 1: the header must read {_header(4)}, with three motors a foot.", f"{name}:1"
-        )
-    return motors // 3
+    return _legs_of_header(read_table(text, name), None)
+
+
+def _legs_of_header(table: Table, legs: int | None) -> int:
+    """The number of legs, which the header confirms."""
+    head = table.head
+    found = (len(head) - 1) // 3
+    if found < 1 or found != (legs or found) or head != _header(found).split(","):
+        raise table.header_refusal(_header(legs or 4) + ("" if legs else ", with three motors a foot"))
+    return found
 
 
 def _header(legs: int) -> str:
     return "duration_s," + ",".join(f"h{i + 1}" for i in range(3 * legs))
-
-
-def _header_of(text: str) -> str:
-    return text.removeprefix("\ufeff").partition("\n")[0].strip()
-
-
-def parse_waypoint_csv(text: str, legs: int = 4, name: str = "waypoint file") -> Waypoints:
-    """Reads a waypoint file.
-
-    Args:
-        text: the file's text.
-        legs: number of legs that the file must have.
-        name: the file's name, for messages.
-
-    Raises:
-        InputError: naming line and column of the first thing that is wrong.
-    """
-    header = _header(legs)
-    lines = text.replace("\r\n", "\n").rstrip("\n").split("\n")
-    if _header_of(text) != header:
-        raise InputError(f"{name}, line 1: the header must read {header}.", f"{name}:1")
-    rows = [_parse_row(line, 3 * legs + 1, f"{name}:{i}") for i, line in enumerate(lines[1:], 2)]
-    if not rows:
-        raise InputError(f"{name} has a header but no waypoint; add at least one row.", name)
-    table = np.array(rows)
-    return Waypoints(table[:, 1:].reshape(len(rows), legs, 3) / 1000.0, table[:, 0])
-
-
-def _parse_row(line: str, columns: int, where: str) -> list[float]:
-    fields = line.split(",")
-    if len(fields) != columns:
-        raise InputError(f"{where}: {len(fields)} numbers; a row has {columns}.", where)
-    numbers = []
-    for column, field in enumerate(fields, 1):
-        try:
-            number = float(field)
-        except ValueError:
-            raise InputError(f"{where}, column {column}: “{field}” is not a number.", where) from None
-        if not np.isfinite(number):
-            raise InputError(f"{where}, column {column}: {field} is not a finite number.", where)
-        numbers.append(number)
-    return numbers

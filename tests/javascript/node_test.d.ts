@@ -6,6 +6,6 @@ declare module "node:test" {
 }
 
 declare module "node:assert/strict" {
-  const assert: Record<"deepEqual" | "equal" | "notEqual" | "ok", (...given: any[]) => void>;
+  const assert: Record<"deepEqual" | "equal" | "notEqual" | "ok" | "rejects", (...given: any[]) => void>;
   export default assert;
 }

@@ -17,6 +17,7 @@ from tests.support.studio_process import PROJECT
 ORDER: dict[str, tuple[str, ...]] = {
     "core": (
         "core",
+        "core/text",
         "core/data",
         "core/robot",
         "core/motion",

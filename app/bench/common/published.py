@@ -1,7 +1,6 @@
 """What was published of simulated gaits: tables of thesis and paper, and the files behind them."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +10,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.physics.metrics import tilts
 from core.robot.model import RobotModel
+from core.text.tables import read_table
 
 TABLE_4_1 = {
     ("walk", 0): 0.0028,
@@ -186,13 +186,7 @@ def _positions(table: Floats, first: int) -> tuple[Floats, Floats]:
 
 def _numbers(path: Path, text: str, header: int = 0) -> Floats:
     """Numbers of a CSV; lines that begin with # are left out."""
-    try:
-        return np.array(list(_rows(text.splitlines()[header:])))
-    except ValueError as error:
-        raise InputError(f"{path} is no table of numbers: {error}.", "--reference") from error
-
-
-def _rows(lines: list[str]) -> Iterator[list[float]]:
-    for line in lines:
-        if line.strip() and not line.startswith("#"):
-            yield [float(field) for field in line.rstrip(",").split(",")]
+    table = read_table(text, str(path))
+    rows = [index for index, row in enumerate(table.rows) if index >= header and not row[0].startswith("#")]
+    kept = replace(table, rows=[table.rows[i] for i in rows], lines=[table.lines[i] for i in rows])
+    return kept.numbers(0)

@@ -91,7 +91,7 @@ def atlas_space(robot: str | None, path: Path | None, seed: int | None) -> Atlas
         space = default_space(robot or "deltawalker")
     else:
         try:
-            text = read_plain_file(path, MOST_SPACE).decode(errors="replace")
+            text = read_plain_file(path, MOST_SPACE)
         except FileNotFoundError as error:
             raise InputError(f"There is no file {path}. Give an existing space file.", "--space") from error
         space = space_from_toml(text, str(path))

@@ -1,7 +1,6 @@
 """The types of arguments: numbers within bounds, words of a closed set, and what a refusal says of them."""
 
 import argparse
-import math
 from collections.abc import Callable
 from enum import StrEnum
 from typing import TypeVar
@@ -9,6 +8,7 @@ from typing import TypeVar
 from core.patterns.problem import MOST_SAMPLES
 from core.pose_gaits.pose_problem import MOST_TURN
 from core.robot.model import ROBOT_NAMES
+from core.text.numbers import plain_number, plain_whole
 
 Value = TypeVar("Value")
 
@@ -20,10 +20,10 @@ def number(least: float, most: float, unit: str) -> Callable[[str], float]:
 
     def convert(text: str) -> float:
         try:
-            value = float(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"“{text}” is not a number") from None
-        if not (math.isfinite(value) and least <= value <= most):
+            value = plain_number(text)
+        except ValueError as fault:
+            raise argparse.ArgumentTypeError(str(fault)) from None
+        if not (least <= value <= most):
             is_mm = unit == "m" and most < value and least <= value / 1000 <= most
             near = f"{value / 1000:.3f}" if round(value / 1000, 3) == value / 1000 else f"{value / 1000:g}"
             hint = f"; it is in m, did you mean {near}?" if is_mm else ""
@@ -38,9 +38,9 @@ def whole(least: int, most: int) -> Callable[[str], int]:
 
     def convert(text: str) -> int:
         try:
-            value = int(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"“{text}” is not a whole number") from None
+            value = plain_whole(text)
+        except ValueError as fault:
+            raise argparse.ArgumentTypeError(str(fault)) from None
         if not least <= value <= most:
             raise argparse.ArgumentTypeError(f"{text} must lie between {least} and {most}")
         return value
@@ -75,7 +75,7 @@ def zero_or(convert: Callable[[str], float]) -> Callable[[str], float]:
 
     def converted(text: str) -> float:
         try:
-            is_zero = float(text) == 0.0
+            is_zero = plain_number(text) == 0.0
         except ValueError:
             is_zero = False
         return 0.0 if is_zero else convert(text)
@@ -119,7 +119,7 @@ def pixel(text: str) -> tuple[float, float]:
 def foot_order(text: str) -> tuple[int, ...]:
     """An argument type: feet in order, `3,2,4,1`."""
     try:
-        return tuple(int(part) for part in text.split(","))
+        return tuple(plain_whole(part) for part in text.split(","))
     except ValueError:
         raise argparse.ArgumentTypeError(f"“{text}” must be feet such as 3,2,4,1") from None
 

@@ -16,6 +16,7 @@ from app.web.dependencies import RequestBody, TheStudio, changed, on_command_thr
 from core.errors import InputError
 from core.gait.gait import MOST_NAME
 from core.gait.recording import MOST_FILE_NAME, RecordingFit, WithinStroke
+from core.text.decoding import text_of
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 MOST_BYTES = 20_000_000
@@ -95,13 +96,7 @@ async def import_gait(
 
 
 async def _body(request: Request, file: str) -> str:
-    body = await request.body()
-    if len(body) > MOST_BYTES:
-        raise InputError(f"{file} has {len(body)} bytes; at most {MOST_BYTES} are read.", file)
-    try:
-        return body.decode()
-    except UnicodeDecodeError as error:
-        raise InputError(f"{file} is not text in UTF-8.", file) from error
+    return text_of(await request.body(), file, MOST_BYTES)
 
 
 def _file(text: str, file: str) -> tuple[str, str | None]:

@@ -1,6 +1,6 @@
 """Trials of the real robot: adding tracks, figures beside the plan, ends of iterations, tables."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from fastapi import APIRouter, Query, Response
 from pydantic import Field
@@ -12,7 +12,7 @@ from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
 from app.trials.service import TrialDescription, compared
 from app.trials.tables import table_csv, table_latex
 from app.web.dependencies import FiniteBody, RequestBody, Revision, TheAuthor, TheStudio, on_planned
-from core.vision.track_csv import FRAME_RATE, PixelScale, parse_track_csv
+from core.vision.track_csv import FRAME_RATE, PixelScale, TrackFile, read_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
 
@@ -57,18 +57,19 @@ class TrialChanges(FiniteBody):
 
 @router.post("", status_code=201)
 async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> Json:
-    """Keeps a track as a trial and tells its figures."""
+    """Keeps a track as a trial and tells its figures; `remarks` say what is unusual in its file's form."""
     scale = None if trial.pixels is None else PixelScale(0.01 / trial.pixels.per_cm, trial.pixels.origin)
 
-    def read() -> Any:
-        return parse_track_csv(trial.csv, trial.name, frame_rate=trial.frame_rate, pixels=scale)
+    def read() -> TrackFile:
+        return read_track_csv(trial.csv, trial.name, frame_rate=trial.frame_rate, pixels=scale)
 
-    track = await run_in_threadpool(read)
+    file = await run_in_threadpool(read)
     gait, gait_name, planned = await planned_for(studio, trial.run, trial.gait, trial.iterations)
     words = TrialDescription(
         trial.name, author.name, trial.expected_cm, trial.iterations, trial.note, gait, gait_name, trial.run
     )
-    return await run_in_threadpool(studio.trials.add, track, words, planned)
+    added = await run_in_threadpool(studio.trials.add, file.track, words, planned)
+    return {**added, "remarks": list(file.notes)}
 
 
 @router.post("/example", status_code=201)

@@ -3,6 +3,7 @@
 import { learningApi } from "../api/learning.js";
 import { trialApi } from "../api/trials.js";
 import { h, setText } from "../lib/dom.js";
+import { textOf } from "../lib/file_text.js";
 import { clockTime, fixed } from "../lib/format.js";
 import { announce, attempt, report, toast } from "../lib/toasts.js";
 import { trialChoice } from "./learning_choice.js";
@@ -273,11 +274,11 @@ function tableChoice(start) {
   });
   const submit = attempt(async (event) => {
     event.preventDefault();
-    const texts = await Promise.all([...trajectories.files].map(async (one) => [one.name, await one.text()]));
+    const named = [...trajectories.files].map(async (one) => [one.name, await textOf(one)]);
     start({
       table: {
-        csv: await table.files[0].text(),
-        trajectories: Object.fromEntries(texts),
+        csv: await textOf(table.files[0]),
+        trajectories: Object.fromEntries(await Promise.all(named)),
         iterations: iterations.valueAsNumber,
       },
     });

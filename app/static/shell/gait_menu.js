@@ -5,6 +5,7 @@ import { freeName } from "../document/gait_names.js";
 import { actionMenu } from "../lib/action_menu.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { byId, h } from "../lib/dom.js";
+import { textOf } from "../lib/file_text.js";
 import { clockTime } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { askNewGait } from "./new_gait.js";
@@ -235,7 +236,7 @@ async function bodies(files) {
       if (!companion) return { name: file.name, body: file };
       return {
         name: file.name,
-        body: JSON.stringify({ csv: await file.text(), companion: await companion.text() }),
+        body: JSON.stringify({ csv: await textOf(file), companion: await textOf(companion) }),
       };
     }),
   );

@@ -1,6 +1,7 @@
 /** Adding tracks: files, the wanted distance, and what they are laid over. */
 
 import { h } from "../lib/dom.js";
+import { textOf } from "../lib/file_text.js";
 import { clockTime } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
@@ -167,14 +168,16 @@ export function trialForm({ store, all, done }) {
       added.push(
         await trialApi.add({
           name: file.name.replace(/\.csv$/i, ""),
-          csv: await file.text(),
+          csv: await textOf(file),
           frame_rate: rate.input.valueAsNumber,
           pixels,
           ...walk.values(),
         }),
       );
     }
-    if (added.length > 1) toast(`${added.length} trials were added.`);
+    const remarks = added.flatMap(({ name, remarks: said }) => said.map((one) => `${name}: ${one}`));
+    const words = added.length > 1 ? [`${added.length} trials were added.`, ...remarks] : remarks;
+    if (words.length) toast(words.join(" "));
     done(added);
   });
 

@@ -73,9 +73,9 @@ def test_a_folder_without_the_data_is_refused_by_name(tmp_path: Path) -> None:
         Reference(tmp_path)
 
 
-def test_a_damaged_table_is_refused_by_name(tmp_path: Path) -> None:
+def test_a_damaged_table_is_refused_by_line_and_column(tmp_path: Path) -> None:
     for name in ("simulation_manual", "simulation_optimised/simulated", "trajectories"):
         (tmp_path / name).mkdir(parents=True)
     (tmp_path / "simulation_optimised/simulated/trajAa_o1.csv").write_text("1,2\n3,x\n")
-    with pytest.raises(InputError, match=r"trajAa_o1\.csv is no table of numbers"):
+    with pytest.raises(InputError, match=r"trajAa_o1\.csv:2, column 2: “x” is not a number"):
         Reference(tmp_path).optimised_run("walk", 0.010, MODEL)

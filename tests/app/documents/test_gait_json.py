@@ -111,7 +111,7 @@ def _half_named() -> Any:
     [
         ("{", "is not JSON"),
         ("[" * 100_000, "nested too deeply"),
-        ('{"version": ' + "9" * 5000 + "}", "is not JSON"),
+        ('{"version": ' + "9" * 5000 + "}", r"line 1, column 13 \(version\): 9+… is not a finite number"),
         (_with("version", True), "version True"),
         (_with("name", "half \ud800"), "half a character"),
         (_with("segment_table", _half_named()), "half a character after “.*Half"),

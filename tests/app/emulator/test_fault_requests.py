@@ -31,6 +31,8 @@ def test_a_fault_is_read_with_its_motors(text: str, request_: FaultRequest) -> N
         ("stuck-motor:13", "Motors are 1 to 12"),
         ("stuck-motor:1,2", "The fault stuck-motor names one motor"),
         ("stuck-motor:x", "x are no motors; write as in stuck-motor:4"),
+        ("stuck-motor:1_0", "1_0 are no motors; write as in stuck-motor:4"),
+        ("stuck-motor:٤", "٤ are no motors; write as in stuck-motor:4"),
         ("swapped-motors:4", "The fault swapped-motors names 2 different motors"),
         ("swapped-motors:4,4", "The fault swapped-motors names 2 different motors"),
     ],

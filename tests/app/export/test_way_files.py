@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -68,9 +69,22 @@ def test_a_companion_that_does_not_fit_is_left_aside_or_refused(tmp_path: Path) 
         assert words in way.assumptions[0]
     beside.write_text(json.dumps({**content, "csv_sha256": "0"}))
     assert "another version" in read_way_file(path).assumptions[0]
-    beside.write_text(json.dumps({**content, "motion": {"times": [0]}}))
-    with pytest.raises(InputError, match="damaged"):
-        read_way_file(path)
+    motion = content["motion"]
+    quoted = [["0"] * 4] * len(motion["contact"])
+    for damage, words in (
+        ({"motion": {"times": [0]}}, "damaged"),
+        ({"stop_bound": "1_0"}, "damaged.*numbers in quotes"),
+        ({"motion": {**motion, "times": list(map(str, motion["times"]))}}, "damaged.*numbers in quotes"),
+        (
+            {"motion": {**motion, "contact": quoted}},
+            "damaged.*numbers in quotes",
+        ),
+        ({"stop_bound": math.nan}, r"column \d+ \(stop_bound\): NaN is not a finite number"),
+        ({"motion": {**motion, "times": [math.inf]}}, r"\(times\): Infinity is not a finite number"),
+    ):
+        beside.write_text(json.dumps({**content, **damage}))
+        with pytest.raises(InputError, match=words):
+            read_way_file(path)
     feet = np.array(content["motion"]["feet"])
     feet[1, 0, 0] += 0.001
     beside.write_text(json.dumps({**content, "motion": {**content["motion"], "feet": feet.tolist()}}))

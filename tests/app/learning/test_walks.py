@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -103,8 +104,8 @@ def test_a_row_and_its_trajectory_make_a_gait_in_the_wanted_direction() -> None:
         ("a,b\n1,2\n", "no column Traj"),
         (TABLE + "Other,1,1,1,1,1,1,1,1,1\n", "none of TrajAa to TrajDd"),
         (TABLE + ROW.replace("Aa", "Bb"), r"needs the trajectory ambl_b\.csv"),
-        (TABLE + ROW.replace("3.7", "far"), "“far” for dist"),
-        (TABLE + ROW.replace("3.5", "inf"), "“inf” for dx"),
+        (TABLE + ROW.replace("3.7", "far"), "table:2, column 8: “far” is not a number"),
+        (TABLE + ROW.replace("3.5", "inf"), "table:2, column 4: inf is not a finite"),
     ],
 )
 def test_a_table_that_cannot_be_used_is_refused_with_a_sentence(table: str, words: str) -> None:
@@ -112,6 +113,26 @@ def test_a_table_that_cannot_be_used_is_refused_with_a_sentence(table: str, word
     assert plan.trajectory is not None
     with pytest.raises(InputError, match=words):
         walks_of_table(table, {"walk_a.csv": format_trajectory_csv(plan.trajectory)}, ROBOT)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda t: t.replace(",", ";").replace(".", ","),
+        lambda t: t.replace(",", "\t"),
+        lambda t: "sep=;\n" + t.replace(",", ";"),
+        lambda t: "".join(f"{at - 1 if at else ''},{line}\n" for at, line in enumerate(t.splitlines())),
+        lambda t: "\ufeff" + t + ",,,\n",
+        lambda t: t.replace("TrajAa_o1", '"TrajAa_o1"'),
+    ],
+    ids=["decimal commas", "tabs", "sep", "count", "mark and padding", "quotes"],
+)
+def test_a_table_in_another_form_says_the_same(change: Callable[[str], str]) -> None:
+    plan = walk_plan()
+    assert plan.trajectory is not None
+    files = {"walk_a.csv": format_trajectory_csv(plan.trajectory)}
+    usual, found = (walks_of_table(text, files, ROBOT) for text in (TABLE + ROW, change(TABLE + ROW)))
+    assert found[0].measured == usual[0].measured
 
 
 def test_the_published_robot_is_off_by_0_96_cm_where_it_is_taken_to_walk_as_planned() -> None:

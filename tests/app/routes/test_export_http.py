@@ -6,7 +6,7 @@ import json
 import re
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from email.message import Message
 from pathlib import Path
 from typing import Any
@@ -130,6 +130,38 @@ def test_a_trajectory_becomes_a_gait_and_what_was_assumed_is_said(studio: Studio
     assert studio.ask("GET", f"/api/gaits/{answer.content['id']}").content == document
 
 
+def with_count(text: str) -> str:
+    """The text with a first column as pandas writes it."""
+    return "".join(f"{at - 1},{line}\n" if at else f",{line}\n" for at, line in enumerate(text.splitlines()))
+
+
+@pytest.mark.parametrize("form", ["csv", "waypoints"])
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (
+            lambda t: t.replace(",", ";").replace(".", ","),
+            "Read with ; between the numbers and a decimal comma.",
+        ),
+        (lambda t: t.replace(",", "\t"), "Read with tabs between the numbers."),
+        (with_count, "The first column counts the rows and was left out."),
+    ],
+    ids=["semicolons", "tabs", "count"],
+)
+def test_an_unusual_file_is_kept_as_it_is_and_exported_in_the_usual_form(
+    change: Callable[[str], str], sentence: str, form: str, studio: StudioProcess
+) -> None:
+    csv = download(studio, "api/gaits/walk/export/csv")[2] if form == "csv" else every_knot(studio, "walk")
+    usual = csv.decode()
+    text = change(usual)
+    answer = studio.ask("POST", "/api/gaits/import?file=mine.csv", text.encode())
+    assert answer.status == 201
+    assert sentence in answer.content["remarks"]
+    assert answer.content["document"]["recorded"]["text"] == text
+    exported = download(studio, f"api/gaits/{answer.content['id']}/export/{form}")[2].decode()
+    assert exported == usual
+
+
 def test_a_trajectory_with_its_companion_needs_no_assumption(studio: StudioProcess) -> None:
     path = reference_path("trajectories/direction1/walk_a.csv")
     trajectory = parse_trajectory_csv(path.read_text(), path.name).trajectory
@@ -205,6 +237,18 @@ def test_a_phase_list_becomes_a_gait(studio: StudioProcess) -> None:
         (b"", "mine.csv holds no numbers"),
         (b"\xff\xfe", "mine.csv is not text in UTF-8"),
         (b"1,2\n3,x", "mine.csv:2, column 2: “x” is not a number"),
+        (b"0.1,1_0\n", "mine.csv:1, column 2: “1_0” is not a number; write it without _"),
+        ("duration_s,h1,h2,h3\n１,1,1,1\n".encode(), "mine.csv:2, column 1: “１” is not a number"),
+        (
+            "0.1,0.2\n".encode("utf-16"),
+            "mine.csv is not text in UTF-8: it is text in UTF-16. Save it as UTF-8",
+        ),
+        (b"PK\x03\x04\0", "mine.csv is not text in UTF-8: it is a spreadsheet or a ZIP file"),
+        (
+            b'{"format": "footfall-phases", "sample_time": NaN}',
+            "column 46 (sample_time): NaN is not a finite",
+        ),
+        (b'{"csv": "0.1,0.2", "companion": 1e999}', "mine.csv, field companion: "),
         (b'{"format": "other"}', "mine.csv has the format 'other'"),
         (b'{"format"', "mine.csv is not JSON"),
         (b"{" * 200_000, "mine.csv is"),

@@ -22,7 +22,7 @@ def studio(lent_studio: StudioProcess) -> StudioProcess:
         ({"trials": ["none"]}, 404, "no trial none"),
         ({"table": {"csv": "Traj\nTrajAa\n", "trajectories": {}}}, 422, "walk_a.csv"),
         ({"table": {"csv": "", "trajectories": {}, "iterations": 0}}, 422, "iterations"),
-        ({"table": {"csv": f"Traj\n{'A' * 200_000}\n", "trajectories": {}}}, 422, "cannot be read"),
+        ({"table": {"csv": f"Traj\n{'A' * 200_000}\n", "trajectories": {}}}, 422, "none of TrajAa to TrajDd"),
     ],
 )
 def test_what_cannot_be_learned_from_is_refused(

@@ -57,6 +57,17 @@ def test_what_cannot_be_kept_is_refused_with_a_sentence(
     assert words in answer.content["error"]
 
 
+def test_a_track_in_another_form_is_the_same_trial_and_the_answer_says_so(studio: StudioProcess) -> None:
+    usual = studio.ask("POST", "/api/trials", TRIAL).content
+    text = CSV.replace(",", ";").replace(".", ",")
+    found = studio.ask("POST", "/api/trials", {**TRIAL, "csv": text}).content
+    assert usual["remarks"] == []
+    assert found["remarks"] == ["Read with ; between the numbers and a decimal comma."]
+    assert found["figures"] == usual["figures"]
+    for trial in (usual, found):
+        assert studio.ask("DELETE", f"/api/trials/{trial['id']}").status == 200
+
+
 def test_an_unknown_trial_is_not_found(studio: StudioProcess) -> None:
     assert studio.ask("GET", "/api/trials/none").status == 404
 

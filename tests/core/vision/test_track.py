@@ -55,7 +55,7 @@ def test_a_written_track_reads_back_with_its_gaps() -> None:
         ("", "line 1: the header"),
         ("X, Y\n1,2\n", "line 1: the header"),
         (text("1,2,3,4"), "holds 1 frames"),
-        (text("1,2,3,4", "1,2,3"), "track:3: 3 fields"),
+        (text("1,2,3,4", "1,2,3"), "track, line 3: 3 numbers; a row has 4"),
         (text("1,2,3,4", "1,2,three,4"), "track:3, column 3: “three”"),
         (text("1,2,3,4", "1,2,nan,4"), "track:3, column 3: nan"),
         (text("1,2,,", "1,2,,"), "foot 2 is seen in no frame"),

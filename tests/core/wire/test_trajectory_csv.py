@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
@@ -281,7 +282,18 @@ def test_velocities_by_differences_are_exact_for_even_motion() -> None:
 
 @pytest.mark.parametrize(
     ("field", "value"),
-    [("legs", "four"), ("legs", 1e400), ("times", [0.0]), ("contact", [[1], [1, 0]]), ("heading", "north")],
+    [
+        ("legs", "four"),
+        ("legs", 1e400),
+        ("times", [0.0]),
+        ("times", ["0.0", "0.2", "0.4"]),
+        ("times", ["0.0", "0.2", "1_0"]),
+        ("times", [0.0, 0.2, math.nan]),
+        ("contact", [[1], [1, 0]]),
+        ("contact", [["0"] * 4] * 3),
+        ("heading", "north"),
+        ("heading", ["1", "1", "1"]),
+    ],
 )
 def test_a_companion_that_does_not_fit_is_refused(field: str, value: object) -> None:
     times = np.array([0.0, 0.2, 0.4])

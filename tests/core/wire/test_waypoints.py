@@ -69,7 +69,7 @@ GOOD = "0.4," + ",".join(["5.0000"] * 12)
     [
         ("", "line 1: the header must read"),
         (HEADER, "no waypoint"),
-        (f"{HEADER}\n{GOOD}\n{GOOD},5.0", "way.csv:3: 14 numbers; a row has 13"),
+        (f"{HEADER}\n{GOOD}\n{GOOD},5.0", "way.csv, line 3: 14 numbers; a row has 13"),
         (f"{HEADER}\n{GOOD.replace('0.4', 'soon')}", "way.csv:2, column 1: “soon” is not a number"),
         (f"{HEADER}\n{GOOD.replace('5.0000', 'nan', 1)}", "way.csv:2, column 2: nan is not a finite"),
         (f"{HEADER}\n{GOOD.replace('0.4', '-1')}", "duration is negative"),

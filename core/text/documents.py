@@ -1,0 +1,141 @@
+"""JSON and TOML of people, whose numbers are plain decimals: no NaN, Infinity, 1e999, 1_000 or 0x10."""
+
+import json
+import re
+import tomllib
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Floats
+from core.errors import InputError
+from core.text.decoding import place_in, text_of, without_mark
+from core.text.numbers import MOST_DIGITS, number_fault, plain_number, shortened
+
+_SUSPECT = re.compile(r"NaN|Infinity|[eE]\+?[0-9]{3}|[0-9]{300}")
+"""What every JSON text has whose numbers are not all finite doubles."""
+_JSON_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|([-+.\w]+)', re.DOTALL)
+_LINE = re.compile(r"line ([0-9]+)")
+_KEY = re.compile(r'"((?:[^"\\]|\\.)*)"\s*:|(?m:^)[ \t]*([\w.-]+)[ \t]*=')
+_TOML_WORD = re.compile(
+    r'"""(?:[^\\]|\\.)*?"""|\'\'\'.*?\'\'\'|"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'|#[^\n]*'
+    r"|(?m:^[ \t]*\[[^\]\n]*\]+[ \t]*(?:#[^\n]*)?$)"
+    r"|[-+.\w]+[ \t]*=|([-+.:\w]+)",
+    re.DOTALL,
+)
+"""Strings, comments, heads of tables and keys; what is caught is a bare value."""
+_TOML_NUMBER = re.compile(
+    r"[+-]?(?:inf|nan|0[xob][0-9A-Fa-f_]+|[0-9][0-9_]*(?:\.[0-9_]+)?(?:[eE][+-]?[0-9_]+)?)", re.ASCII
+)
+
+
+class NotJsonError(InputError):
+    """A text is no JSON at all."""
+
+
+def json_content(source: str | bytes, name: str) -> Any:
+    """Reads JSON.
+
+    Args:
+        source: the text, or the bytes of its file.
+        name: of the file, for messages.
+
+    Raises:
+        NotJsonError: it is no JSON.
+        InputError: it is no text in UTF-8, or a number in it is not finite.
+    """
+    text = without_mark(text_of(source, name) if isinstance(source, bytes) else source)
+    if _SUSPECT.search(text):
+        _require_plain(
+            (match for match in _JSON_WORD.finditer(text) if _is_json_number(match[1])), name, text
+        )
+    try:
+        return json.loads(text)
+    except RecursionError as error:
+        raise NotJsonError(f"{name} is not JSON: it is nested too deeply.", name) from error
+    except json.JSONDecodeError as error:
+        slip = _slip(text, error.lineno)
+        if not text[: error.pos].strip() and text.strip():
+            slip = f" It begins “{shortened(text.strip())}”."
+        raise NotJsonError(f"{name} is not JSON: {error}.{slip}", name) from error
+
+
+def json_numbers(content: Any) -> Floats:
+    """Numbers of JSON content as an array.
+
+    Raises:
+        ValueError: there are texts among them, such as numbers in quotes, or lists of other lengths.
+    """
+    array = np.array(content)
+    if array.size and array.dtype.kind not in "biuf":
+        raise ValueError("what must be numbers has other values, such as numbers in quotes")
+    return array.astype(np.float64)
+
+
+def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
+    """Reads TOML.
+
+    Args:
+        source: the text, or the bytes of its file.
+        name: of the file, for messages.
+
+    Raises:
+        InputError: it is no text in UTF-8 or no TOML, or a number in it is no plain decimal.
+    """
+    text = without_mark(text_of(source, name) if isinstance(source, bytes) else source)
+    if "\n" not in text:
+        text = text.replace("\r", "\n")
+    try:
+        content = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        line = _LINE.search(str(error))
+        slip = "" if line is None else _slip(text, int(line[1]))
+        hint = " It seems to be JSON." if text.lstrip().startswith("{") else slip
+        raise InputError(f"{name} is no TOML file: {error}.{hint}", name) from error
+    except RecursionError as error:
+        raise InputError(f"{name} is no TOML file: it is nested too deeply.", name) from error
+    except ValueError as error:
+        _require_plain(_toml_numbers(text), name, text)
+        raise InputError(f"{name} is no TOML file: {error}.", name) from error
+    _require_plain(_toml_numbers(text), name, text)
+    return content
+
+
+def _toml_numbers(text: str) -> Iterator[re.Match[str]]:
+    return (
+        match
+        for match in _TOML_WORD.finditer(text)
+        if match[1] is not None and _TOML_NUMBER.fullmatch(match[1])
+    )
+
+
+def _is_json_number(word: str | None) -> bool:
+    return word is not None and (word.lstrip("-") in ("NaN", "Infinity") or word.lstrip("-")[:1].isdigit())
+
+
+def _slip(text: str, line: int) -> str:
+    """What may have spoilt a line that cannot be read; empty where it has nothing of the kind."""
+    found = text.split("\n")[line - 1]
+    if re.search(r"[0-9]_[0-9]", found):
+        return " Write numbers without _."
+    return " Write decimal points, not commas." if re.search(r"[0-9],[0-9]", found) else ""
+
+
+def _require_plain(words: Iterator[re.Match[str]], name: str, text: str) -> None:
+    """Raises InputError for the first word that is no plain finite number."""
+    for match in words:
+        fault = _fault(match[1])
+        if fault is not None:
+            line, column = place_in(text, match.start(1))
+            keys = ["".join(found) for found in _KEY.findall(text, 0, match.start(1))]
+            key = f" ({shortened(keys[-1])})" if keys else ""
+            raise InputError(f"{name}, line {line}, column {column}{key}: {fault}.", f"{name}:{line}")
+
+
+def _fault(word: str) -> str | None:
+    try:
+        plain_number(word)
+    except ValueError as fault:
+        return str(fault)
+    return None if len(word) <= MOST_DIGITS else number_fault(word)

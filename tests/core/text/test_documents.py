@@ -1,0 +1,128 @@
+"""JSON and TOML of plain numbers are read as their parsers read them; others name line and column."""
+
+import json
+import tomllib
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.errors import InputError
+from core.text.documents import NotJsonError, json_content, toml_content
+
+content = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.text(),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=8), inner, max_size=4),
+    max_leaves=12,
+)
+
+
+@given(content, st.booleans())
+def test_json_that_we_write_is_read_as_it_was(value: Any, is_indented: bool) -> None:
+    text = json.dumps(value, indent=2 if is_indented else None)
+    assert json_content(text, "mine.json") == value
+    assert json_content(("\ufeff" + text).encode(), "mine.json") == value
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"note": "NaN, Infinity, 1e999"}',
+        '["1e999 \\" 1e999"]',
+        f'["{"9" * 400}"]',
+        "[1e300]",
+        '{"1e999": 1}',
+    ],
+)
+def test_words_in_strings_are_no_numbers(text: str) -> None:
+    assert json_content(text, "mine.json") == json.loads(text)
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        ("NaN", "NaN is not a finite number"),
+        ("Infinity", "Infinity is not a finite number"),
+        ("-Infinity", "-Infinity is not a finite number"),
+        ("1e999", "1e999 is not a finite number"),
+        ("-1E+0400", r"-1E\+0400 is not a finite number"),
+        ("9" * 400, "9{40}… is not a finite number"),
+        ("9" * 5000, "9{40}… is not a finite number"),
+    ],
+)
+def test_a_json_number_that_is_not_finite_is_refused_by_place(number: str, words: str) -> None:
+    with pytest.raises(InputError, match=rf"mine\.json, line 2, column 11 \(time\): {words}") as refusal:
+        json_content(f'{{"a": "NaN",\n "time":  {number}}}', "mine.json")
+    assert refusal.value.where == "mine.json:2"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('{"a": 1_0}', r"is not JSON: .*line 1 column 8.*Write numbers without _"),
+        ('{"a": 0,4, "b": 1}', "Write decimal points, not commas"),
+        ("a,b\n1,2\n", "It begins “a,b"),
+        ("[" * 100_000, "nested too deeply"),
+        ("", "Expecting value"),
+    ],
+)
+def test_what_is_no_json_says_what_was_found(text: str, words: str) -> None:
+    with pytest.raises(NotJsonError, match=words):
+        json_content(text, "mine.json")
+
+
+TOML = """# 1_0, nan and 0x10 in a comment
+title = "1_0 # nan"
+multi = \"\"\"
+inf = 1_0
+\"\"\"
+1_0 = 3
+[vary.1_0]
+plain = [-1.5, +2, 3e-4, [0.1, 7]]
+when = 1979-05-27
+yes = true
+literal = '1_0'
+"""
+
+
+@pytest.mark.parametrize("edit", [str, lambda t: "\ufeff" + t, lambda t: t.replace("\n", "\r\n")])
+def test_plain_toml_is_read_as_its_parser_reads_it(edit: Any) -> None:
+    assert toml_content(edit(TOML).encode(), "mine.toml") == tomllib.loads(TOML)
+
+
+def test_toml_with_carriage_returns_as_ends_of_lines_is_read() -> None:
+    assert toml_content("a = 1\rb = 2\r", "mine.toml") == {"a": 1, "b": 2}
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        ("1_000", "“1_000” is not a number; write it without _"),
+        ("1_0.0", "“1_0.0” is not a number; write it without _"),
+        ("inf", "inf is not a finite number"),
+        ("-nan", "-nan is not a finite number"),
+        ("0x10", "“0x10” is not a number; write it in decimal digits"),
+        ("0b1", "“0b1” is not a number"),
+        ("1e999", "1e999 is not a finite number"),
+        ("9" * 5000, "9{40}… is not a finite number"),
+    ],
+)
+def test_a_toml_number_that_is_not_plain_is_refused_by_place(number: str, words: str) -> None:
+    with pytest.raises(InputError, match=rf"mine\.toml, line 13, column 3 \(more\): {words}"):
+        toml_content(f"{TOML}more = [\n  {number}, 1,\n]\n", "mine.toml")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a = [0.01, 0,02]", "Write decimal points, not commas"),
+        ("a = ", "is no TOML file"),
+        ('{"a": 1}', "It seems to be JSON"),
+        ("a,b\n1,2\n", "is no TOML file"),
+        ("a = " + "[" * 100_000, "is no TOML file"),
+    ],
+)
+def test_what_is_no_toml_is_refused(text: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        toml_content(text, "mine.toml")

@@ -93,7 +93,9 @@ class RobotStateMachine(RobotLink):
             self._delivery.miss_lines()
         if not self.in_run:
             return
-        cause, run, is_long = away_sentence(seconds), self._run, seconds > SILENCE_LIMIT
+        cause, run = away_sentence(seconds), self._run
+        # A motor test judges by when the robot stops; what it saw late says nothing of a motor.
+        is_long = seconds > (SILENCE_LIMIT if self._test is None else STALE_TIME)
         if self._jog is not None and is_long:
             self._jog.end_early()
         would_go_on = self._test is not None or (run is not None and self.robot is not RobotState.PAUSED)

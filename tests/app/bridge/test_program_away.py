@@ -7,13 +7,19 @@ import math
 import numpy as np
 import pytest
 
+from app.bridge.jog import JogPlan
 from app.bridge.states import RobotSnapshot, RobotState, RunPlan
 from app.bridge.telemetry import SILENCE_LIMIT
 from app.emulator.faults import Fault
 from app.emulator.profiles import ProfileName
 from core.errors import StateError
+from core.jog.check import check_jog
+from core.jog.motor_test import MotorVerdict
+from core.jog.steps import JogPart, JogStep
+from core.robot.model import load_robot
 from tests.support.virtual_robot import VirtualRobot, make_plan, payloads
 
+WALKER = load_robot("deltawalker")
 GAPS = (0.5, 2.0, 5.0, 20.0, 60.0)
 MOMENTS = np.linspace(0.05, 21.0, 20)
 TERMINAL = 4096
@@ -163,3 +169,58 @@ def test_an_idle_robot_is_not_lost_over_it(seconds: float) -> None:
     robot.away(seconds, 0)
     robot.wait(3.0)
     assert robot.snapshot.robot is RobotState.ARMED
+
+
+@pytest.mark.parametrize("kept", KEPT.values(), ids=KEPT.keys())
+@pytest.mark.parametrize("moment", [0.05, 0.3, 0.8, 1.4])
+def test_a_jog_ends_after_the_move_that_is_on(kept: int, moment: float) -> None:
+    robot = VirtualRobot()
+    robot.arm()
+    robot.until(lambda s: robot.machine.monitor.stands_still(robot.now))
+    measured = np.array(robot.snapshot.strokes).reshape(4, 3)
+    way = check_jog(WALKER, measured, (JogStep(JogPart.MOTOR, 0.012, 1, 2),)).way
+    before = len(robot.sent)
+    robot.machine.jog(JogPlan("motor 3 of foot 2", measured, way), "Ada", robot.now)
+    robot.wait(moment)
+    robot.away(20.0, kept)
+    ended = robot.until_robot(RobotState.ARMED, RobotState.FAULT)
+    assert ended.robot is RobotState.ARMED, ended.sentence
+    assert len(robot.sent) - before < len(way)
+    assert "ended early" in robot.machine.transitions[-1].cause
+
+
+@pytest.mark.parametrize("seconds", [1.5, 3.0, 20.0])
+def test_a_motor_test_is_stopped_and_blames_no_motor(seconds: float) -> None:
+    for moment in np.linspace(0.1, 8.0, 12):
+        robot = VirtualRobot()
+        robot.arm()
+        robot.machine.test_motors(WALKER, "Ada", robot.now)
+        robot.wait(moment)
+        robot.away(seconds, TERMINAL)
+        ended = robot.until_robot(RobotState.STOPPED, RobotState.FAULT)
+        assert ended.robot is RobotState.STOPPED, ended.sentence
+        assert "The program did not run for" in ended.sentence
+        assert ended.motor_test is not None
+        assert {one.verdict for one in ended.motor_test.findings} <= {MotorVerdict.GOOD}
+
+
+@pytest.mark.parametrize("kept", KEPT.values(), ids=KEPT.keys())
+def test_a_reset_and_a_clear_end_as_usual(kept: int) -> None:
+    robot = VirtualRobot()
+    robot.begin(walk())
+    robot.wait(4.0)
+    robot.stop("Grace")
+    robot.until_robot(RobotState.STOPPED)
+    robot.machine.clear("Ada", robot.now)
+    robot.away(20.0, kept)
+    ended = robot.until(lambda s: s.robot is RobotState.DISARMED or "was lost" in s.sentence)
+    if ended.robot is not RobotState.DISARMED:
+        robot.until(lambda s: "Nothing moves until you clear" in s.sentence)
+        robot.machine.clear("Ada", robot.now)
+        robot.until_robot(RobotState.DISARMED)
+    robot.machine.arm("Ada")
+    robot.machine.reset("Ada", robot.now)
+    robot.wait(0.3)
+    robot.away(20.0, kept)
+    assert robot.until_robot(RobotState.ARMED, RobotState.FAULT).robot is RobotState.ARMED
+    assert max(robot.strokes_mm) < 2.0

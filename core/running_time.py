@@ -1,6 +1,9 @@
 """Time in which a program ran: no deadline counts time in which its judge could not look."""
 
 from collections.abc import Callable
+from typing import TypeVar
+
+T = TypeVar("T")
 
 MOST_SECONDS = 0.5
 """A judge that runs looks more often than this, s."""
@@ -28,10 +31,10 @@ class RunningClock:
         return counted + min(self._clock() - looked, self._most)
 
     def look(self) -> float:
-        """The judge looks.
+        """Notes that the judge runs; for one thread at a time, more often than every `most` s.
 
         Returns:
-            0, or the time since its last look where that was longer than `most`, s.
+            0, or the time since the last look where that was longer than `most`, s.
         """
         looked, counted = self._look
         now = self._clock()
@@ -40,7 +43,7 @@ class RunningClock:
 
 
 class Deadline:
-    """A time limit that counts the time in which whoever waits for it ran.
+    """A time limit that counts the time in which the waiting thread ran.
 
     Args:
         seconds: the limit.
@@ -54,7 +57,7 @@ class Deadline:
 
     @property
     def left(self) -> float:
-        """What is left of it, s; 0 when it is over."""
+        """Time left, s; 0 when it is over."""
         self._running.look()
         return max(0.0, self._seconds - self._running())
 
@@ -62,3 +65,23 @@ class Deadline:
     def is_over(self) -> bool:
         """Whether nothing is left."""
         return self.left == 0.0
+
+
+def wait_within(wait: Callable[[float], T], seconds: float, clock: Callable[[], float]) -> T:
+    """Waits for something in short pieces, so that only time in which the program ran counts.
+
+    Args:
+        wait: waits at most so long, s, as `Future.result` does.
+        seconds: the limit.
+        clock: seconds that only grow.
+
+    Raises:
+        TimeoutError: it did not come in time.
+    """
+    deadline = Deadline(seconds, clock)
+    while True:
+        try:
+            return wait(min(deadline.left, MOST_SECONDS / 2))
+        except TimeoutError:
+            if deadline.is_over:
+                raise

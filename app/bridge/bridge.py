@@ -272,10 +272,11 @@ class RobotBridge:
             self._latch_stop(by, reason)
 
     def _latch_stop(self, by: str, reason: str | None) -> None:
-        now = self._now()
+        now = self._running()
         if reason is not None:
             self._machine.hung_up(reason, now)
         self._machine.stop(by, now, is_sent=reason is None)
+        self._now()
         self._inbox.wake()
 
     def _do(self, wish: Callable[[float], None]) -> None:
@@ -349,21 +350,19 @@ class RobotBridge:
             items = self._inbox.take(self._tick)
             with self._lock:
                 self._now()
+                was_away, transport = self._machine.was_away, self._transport
+            if was_away and transport is not None:
+                # What waited while the program did not run is read before anything is judged.
+                transport.wait_read()
+                items += self._inbox.take()
+            with self._lock:
+                self._now()
                 for item in items:
                     self._feed(item)
-                self._now()
-                if self._machine.was_away:
-                    self._catch_up()
+                if was_away:
+                    self._machine.listen_anew(self._running())
                 self._machine.tick(self._running())
             self._tell()
-
-    def _catch_up(self) -> None:
-        """What waited while the program did not run is read before anything is judged."""
-        if self._transport is not None:
-            self._transport.wait_read()
-        for item in self._inbox.take():
-            self._feed(item)
-        self._machine.listen_anew(self._running())
 
     def _feed(self, item: Bytes | HungUp) -> None:
         if self._machine.link is LinkState.DISCONNECTED:

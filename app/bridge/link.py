@@ -104,13 +104,6 @@ class RobotLink(StateLog, ABC):
         """Whether the bytes that came while the program did not run are still to be taken."""
         return self._was_away
 
-    def away(self, seconds: float, now: float) -> None:
-        """The program did not run for so long, s; what the robot said meanwhile comes next, or is lost."""
-        del now
-        if seconds > STALE_TIME:
-            self._was_away = True
-            self.monitor.forget_age()
-
     def stop(self, by: str, now: float, *, is_sent: bool = True) -> None:
         """Latches a stop whose bytes are already out, or which the line did not take.
 
@@ -127,19 +120,24 @@ class RobotLink(StateLog, ABC):
         sentence = self._stop.describe(RobotState.STOPPING) if is_sent else f"{cause} {NOT_SENT}".strip()
         self.become(f"Stop by {by}.", sentence, robot=RobotState.STOPPING)
 
-    def listen_anew(self, now: float) -> None:
-        """The bytes that waited are taken; from here on some may be missing, and all are of the present."""
-        del now
-        self._was_away = False
-        self._reader.cut()
-        self.monitor.forget_age()
-
     def tick(self, now: float) -> None:
         """Time has passed: silence, standing still, deadlines."""
         if self.link in (LinkState.READY, LinkState.CONNECTING):
             self._check_silence(now)
         if self.link is not LinkState.DISCONNECTED and not self._clearing:
             self._check_stop(now)
+
+    def _note_away(self, seconds: float) -> None:
+        """Called when the program did not run for `seconds`: a line keeps no more than `STALE_TIME` holds."""
+        if seconds > STALE_TIME:
+            self._was_away = True
+            self.monitor.forget_age()
+
+    def _begin_anew(self) -> None:
+        """Called when the bytes that waited are taken: some may be missing, what comes is of the present."""
+        self._was_away = False
+        self._reader.cut()
+        self.monitor.forget_age()
 
     def _see(self, line: Line, now: float) -> None:
         if isinstance(line, SetupMoving | SetupFinished):

@@ -97,9 +97,9 @@ class MotorTest:
         return self._state is not MotorTestState.RUNNING
 
     @property
-    def was_ended_early(self) -> bool:
-        """Whether a person ended it before the last motor."""
-        return self._state is MotorTestState.CANCELLED
+    def end_words(self) -> str:
+        """The sentence at its end."""
+        return "Motor test ended early." if self._cancelled else "Motor test done."
 
     @property
     def place(self) -> str:

@@ -4,11 +4,13 @@ import errno
 import os
 import socket
 import threading
+import time
 from concurrent.futures import Future
 from contextlib import suppress
 from urllib.parse import urlsplit
 
 from core.errors import InputError
+from core.running_time import wait_within
 
 SCHEME = "socket://"
 
@@ -76,7 +78,7 @@ def _connected(address: tuple[str, int]) -> socket.socket:
 
     threading.Thread(target=connect, name="robot connection", daemon=True).start()
     try:
-        return made.result(CONNECT_DEADLINE)
+        return wait_within(made.result, CONNECT_DEADLINE, time.monotonic)
     except TimeoutError:
         made.add_done_callback(_close_late)
         raise OSError(errno.ETIMEDOUT, os.strerror(errno.ETIMEDOUT)) from None

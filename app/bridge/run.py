@@ -13,6 +13,9 @@ from core.errors import StateError
 from core.wire.messages import HIGHEST_MM, LOWEST_MM, THRESHOLD_MM, encode_waypoint, strokes_to_mm
 from core.wire.robot_time import START_MOVE, longest_start_move, ramp_time
 
+FORGOTTEN = 300.0
+"""A run that was left alone for longer is stopped where it is, s: nobody expects it to move any more."""
+
 
 @dataclass(frozen=True)
 class Move:
@@ -122,10 +125,9 @@ class Run:
         """Whether a pause may end at the pose that was reached last."""
         return self._reached > 0 and self._moves[self._reached - 1].hold_ok
 
-    @property
-    def has_hold_ahead(self) -> bool:
-        """Whether a pause may end at the move in flight or at a later one."""
-        return any(move.hold_ok for move in self._moves[self._reached :])
+    def may_pause_after(self, seconds: float) -> bool:
+        """Whether a run that the program left alone for so long, s, goes on to a pose for a pause."""
+        return seconds <= FORGOTTEN and any(move.hold_ok for move in self._moves[self._reached :])
 
     @property
     def place(self) -> str:

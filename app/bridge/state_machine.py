@@ -38,8 +38,8 @@ from core.wire.messages import (
     encode_waypoint,
 )
 
-FORGOTTEN = 300.0
-"""A program that comes back later than this lets nothing move, not even to the next pose for a pause, s."""
+LOOK_TIME = 1.0
+"""So long after a long time away a paused run is not resumed: who asked for that did so before, s."""
 
 
 class RobotStateMachine(RobotLink):
@@ -58,6 +58,7 @@ class RobotStateMachine(RobotLink):
         self._last_test: MotorTest | None = None
         self._delivery: Delivery | None = None
         self._permit = -1
+        self._away_until = 0.0
         self._numbers = itertools.count(1)
 
     def snapshot(self) -> RobotSnapshot:
@@ -87,30 +88,43 @@ class RobotStateMachine(RobotLink):
             self._finish_delivery(now)
 
     def away(self, seconds: float, now: float) -> None:
-        """The program did not run for so long, s: a run goes on after a short time only."""
-        super().away(seconds, now)
-        if self._delivery is not None and self.was_away:
-            self._delivery.miss_lines()
-        if not self.in_run:
-            return
-        cause, run = away_sentence(seconds), self._run
+        """The program did not run for so long, s: a run goes on by itself after a short time only."""
+        self._note_away(seconds)
+        if self.was_away:
+            if self._delivery is not None:
+                self._delivery.miss_lines()
+            if self._jog is not None:
+                self._jog.end_early()
+        cause = away_sentence(seconds)
         # A motor test judges by when the robot stops; what it saw late says nothing of a motor.
-        is_long = seconds > (SILENCE_LIMIT if self._test is None else STALE_TIME)
-        if self._jog is not None and is_long:
-            self._jog.end_early()
-        would_go_on = self._test is not None or (run is not None and self.robot is not RobotState.PAUSED)
-        if not (is_long and would_go_on):
+        if seconds > (SILENCE_LIMIT if self._test is None else STALE_TIME):
+            self._come_back(cause, seconds, now)
+        elif self.in_run:
             self.become(cause, self.sentence)
-            return
-        self._away_cause = cause
-        if run is not None and run.has_hold_ahead and seconds <= FORGOTTEN:
-            self.become(cause, f"{cause} {SENTENCES[RobotState.PAUSING]}", robot=RobotState.PAUSING)
-        else:
+
+    def _come_back(self, cause: str, seconds: float, now: float) -> None:
+        """After a long time away nothing goes on but to the next pose for a pause."""
+        run = self._run
+        if self.robot is RobotState.ARMED:
+            self.disarm("the program", cause)
+        elif self._test is not None or self._clearing:
+            self._away_cause = cause
             self._stop_by_itself(now)
+        elif self.robot is RobotState.PAUSED:
+            self._away_until = now + LOOK_TIME
+            self.become(cause, f"{cause} {SENTENCES[RobotState.PAUSED]}")
+        elif self.in_run and run is not None:
+            self._away_cause = cause
+            if run.may_pause_after(seconds):
+                self.become(cause, f"{cause} {SENTENCES[RobotState.PAUSING]}", robot=RobotState.PAUSING)
+            else:
+                self._stop_by_itself(now)
+        elif self.in_run:  # a jog or a reset, of which nothing more is sent
+            self.become(cause, self.sentence)
 
     def listen_anew(self, now: float) -> None:
         """The bytes that waited are taken, and what they decided is done."""
-        super().listen_anew(now)
+        self._begin_anew()
         self._finish_delivery(now)
         if self._delivery is not None:
             self._delivery.miss_lines()
@@ -198,13 +212,15 @@ class RobotStateMachine(RobotLink):
 
     def resume(self, by: str, now: float) -> None:
         """Goes on with a paused run."""
-        remedy = "Only a paused run can be resumed."
-        self.require_robot(RobotState.PAUSED, RobotState.PAUSING, remedy=remedy)
-        self._away_cause = ""
+        states = (RobotState.PAUSED, RobotState.PAUSING)
+        self.require_robot(*states, remedy="Only a paused run can be resumed.")
         waiting = self.robot is RobotState.PAUSED
         if waiting and self._run is not None:
             self.require_link("resumed")
+            if now < self._away_until:
+                raise StateError("The program has just come back. Look at the robot, then resume once more.")
             self._run.require_in_place(self._measured_now(now))
+        self._away_cause = ""
         self.become(f"Resumed by {by}.", SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
         if waiting:
             self._send_next(now)
@@ -326,15 +342,13 @@ class RobotStateMachine(RobotLink):
         try:
             order = test.advance(line)
         except RobotError as error:
-            self._fail(error.sentence, now)
-            return
+            return self._fail(error.sentence, now)
         if order is not None:
             target = order.target_mm or self._measured()
             self._deliver(order.message, target, order.stages, now, kind=MessageKind.TEST)
         elif test.finished:
             self._test = None
-            words = "Motor test ended early." if test.was_ended_early else "Motor test done."
-            self.become(words, SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+            self.become(test.end_words, SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
         self.revision += test.progress() != before
 
     def _go_on_clearing(self, delivery: Delivery, now: float) -> None:
@@ -378,8 +392,7 @@ class RobotStateMachine(RobotLink):
         return self.monitor.strokes_mm
 
     def _measured_now(self, now: float) -> tuple[float, ...]:
-        age = now - self.monitor.last_reading
-        if age > STALE_TIME:
+        if now - self.monitor.last_reading > STALE_TIME:
             raise StateError(
                 f"The robot has not reported its strokes for more than {STALE_TIME} s. Wait for its "
                 "telemetry; if none comes, stop the robot and look at its cable."

@@ -2,7 +2,6 @@
 
 import errno
 import os
-import select
 import selectors
 import threading
 import time
@@ -26,7 +25,7 @@ WRITE_DEADLINE = 0.5
 SLICE = 0.05
 """The longest wait at a time for a line to take bytes, s."""
 
-READ_LIMIT = 0.3
+READ_LIMIT = 0.2
 """What has waited at the line is read within this; a robot that never pauses is not waited for longer, s."""
 
 CHUNK_BYTES = 65536
@@ -71,6 +70,7 @@ class Transport:
         self._port = _open(device)
         self._on_data = on_data
         self._on_lost = on_lost
+        self._hands_on = False
         self._closing = threading.Event()
         self._close_lock = threading.Lock()
         self._wake_read, self._wake_write = os.pipe()
@@ -96,17 +96,26 @@ class Transport:
             raise RobotError(_hung_up(self.device), self.device) from error
 
     def wait_read(self) -> None:
-        """Waits until the reader has taken what the robot sent before."""
+        """Waits until the reader has handed on what the robot sent before."""
         deadline = Deadline(READ_LIMIT, time.monotonic)
-        while not deadline.is_over and select.select([self._port.fileno()], [], [], 0)[0]:
+        while not deadline.is_over and (self._hands_on or self._is_ready(selectors.EVENT_READ)):
             time.sleep(0.001)
+
+    def _is_ready(self, event: int, seconds: float = 0.0) -> bool:
+        """Whether the line has bytes or takes some, within a time; false once it is closed."""
+        try:
+            with selectors.DefaultSelector() as selector:
+                selector.register(self._port.fileno(), event)
+                return bool(selector.select(seconds))
+        except (OSError, ValueError):
+            return False
 
     def _write_some(self, data: bytes) -> int:
         try:
             # Don't poll for writability first: a pty blocks until input arrives.
             return os.write(self._port.fileno(), data)
         except BlockingIOError:
-            select.select([], [self._port.fileno()], [], SLICE)
+            self._is_ready(selectors.EVENT_WRITE, SLICE)
             return 0
 
     def close(self) -> None:
@@ -130,11 +139,13 @@ class Transport:
                 selector.select()
                 if self._closing.is_set():
                     return
+                self._hands_on = True
                 data = self._read()
                 if data is None:
                     self._on_lost(_hung_up(self.device))
                     return
                 self._on_data(data)
+                self._hands_on = False
 
     def _read(self) -> bytes | None:
         try:

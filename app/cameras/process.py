@@ -12,7 +12,7 @@ from app.cameras.address import CameraAddress
 from app.cameras.worker import Finish, Finished, Record, Show, Shown, Standing, run_camera
 from app.vision.recorder import Recorded, RecordingJob
 from core.errors import RobotError, StateError
-from core.running_time import RunningClock
+from core.running_time import RunningClock, wait_within
 from solver_jobs import WorkerEndedError, WorkerProcess
 
 _log = logging.getLogger(__name__)
@@ -83,7 +83,7 @@ class CameraProcess:
         number, answer = self._ask()
         self._send(Show(number, most))
         try:
-            shown: Shown = answer.result(timeout)
+            shown: Shown = wait_within(answer.result, timeout, time.monotonic)
         except TimeoutError:
             raise CameraError(f"The camera “{self.address.name}” gives no picture.", "camera") from None
         if shown.refusal:
@@ -105,7 +105,7 @@ class CameraProcess:
         number, answer = self._ask()
         self._send(Finish(number))
         try:
-            finished: Finished = answer.result(timeout)
+            finished: Finished = wait_within(answer.result, timeout, time.monotonic)
         except TimeoutError:
             raise CameraError(f"The camera “{self.address.name}” does not answer.", "camera") from None
         if finished.recorded is None:

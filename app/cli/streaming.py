@@ -15,7 +15,7 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.delivery import HELD_STOP
 from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
 from app.bridge.stop_confirmation import STOP_LIMIT
-from app.cli.common.keyboard import forget_typed, has_typed_line
+from app.cli.common.keyboard import forget_typed, has_keyboard, has_typed_line
 from app.cli.common.output import note
 from app.cli.common.progress import end_line, is_watched, rewrite_line
 from app.common.signals import Interrupted, ignore_endings
@@ -205,6 +205,8 @@ class Sending:
         self._progress.end()
         note(f"{paused.sentence} Press Enter to resume, or Ctrl-C to stop.")
         while self._bridge.snapshot.robot is RobotState.PAUSED:
+            if not has_keyboard():
+                return False
             self._step()
             if has_typed_line():
                 try:

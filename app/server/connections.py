@@ -99,6 +99,13 @@ class Connection:
         self.unsent = 0
         self.stuck_since: float | None = None
 
+    def excuse(self, seconds: float) -> None:
+        """Time in which the studio itself did not run is not the peer's, s."""
+        if self.deadline is not None:
+            self.deadline += seconds
+        if self.stuck_since is not None:
+            self.stuck_since += seconds
+
     def accept_request(self, *, is_socket: bool) -> bool:
         """Counts the connection among the known ones; False where they are too many."""
         return self._register.accept_request(self, is_socket=is_socket)

@@ -14,6 +14,7 @@ from app.server.connections import Connection, Connections, Trouble
 from app.server.descriptors import Spares
 from app.server.newcomers import Newcomer, is_whole, received, shows_one
 from app.server.protocols import HEAD_SECONDS, BoundedHttp
+from core.running_time import RunningClock
 
 BACKLOG = 2048
 """Connections that may wait to be taken: where there is no room, the system makes a peer wait a second."""
@@ -87,6 +88,7 @@ class Listener:
         self._tokens = frozenset(() if token is None else (token.encode(), quote(token, safe="").encode()))
         self._make_protocol, self._on_look = make_protocol, on_look
         self._loop = asyncio.get_running_loop()
+        self._running = RunningClock(self._loop.time, 2 * LOOK_SECONDS)
         self._spares = Spares()
         self._tasks: set[asyncio.Task[object]] = set()
         self._timers: dict[str, asyncio.TimerHandle] = {}
@@ -211,8 +213,9 @@ class Listener:
 
     def _look(self) -> None:
         self._look_later()  # first, so that no error ends the looks
-        now = self._loop.time()
+        now, away = self._loop.time(), self._running.look()
         for connection in self._register.all():
+            connection.excuse(away)
             self._look_at(connection, now)
         for trouble, times in self._register.troubles.items():
             logger.warning(trouble.value, extra={"times": times})

@@ -1,12 +1,14 @@
 """The vision processes, and how to submit tasks to them."""
 
 import logging
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from app.vision.worker import VisionRequest, run_picture_worker
 from core.errors import FootfallError, StateError
+from core.running_time import wait_within
 from solver_jobs import Task, TaskService
 
 _log = logging.getLogger(__name__)
@@ -82,7 +84,7 @@ def ask(service: TaskService[VisionTask], task: VisionRequest, seconds: float) -
     """
     look = service.ask(VisionTask(task))
     try:
-        return look.result(seconds)
+        return wait_within(look.result, seconds, time.monotonic)
     except TimeoutError:
         look.cancel()
         raise StateError(

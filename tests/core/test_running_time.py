@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.running_time import Deadline, RunningClock
+from core.running_time import Deadline, RunningClock, wait_within
 
 
 class SetClock:
@@ -61,3 +61,29 @@ def test_a_deadline_is_not_over_because_nobody_ran(away: float) -> None:
         real.now += 0.4
         late = deadline.is_over
     assert late
+
+
+@pytest.mark.parametrize("away", [0.0, 5.0, 3600.0])
+def test_what_is_waited_for_may_come_after_a_time_in_which_nobody_ran(away: float) -> None:
+    real, waits = SetClock(), list[float]()
+
+    def wait(seconds: float) -> str:
+        waits.append(seconds)
+        real.now += seconds + (away if len(waits) == 2 else 0.0)
+        if len(waits) < 6:
+            raise TimeoutError
+        return "here"
+
+    assert wait_within(wait, 2.0, real) == "here"
+
+
+def test_what_does_not_come_is_given_up_in_time() -> None:
+    real = SetClock()
+
+    def wait(seconds: float) -> str:
+        real.now += seconds
+        raise TimeoutError
+
+    with pytest.raises(TimeoutError):
+        wait_within(wait, 2.0, real)
+    assert real.now == pytest.approx(1002.0, abs=0.3)

@@ -10,9 +10,14 @@ except ImportError:  # not on Windows, where nobody is asked
     termios = None  # type: ignore[assignment]
 
 
+def has_keyboard() -> bool:
+    """Whether a person may sit at a keyboard, also while the program is in the background."""
+    return termios is not None and sys.stdin is not None and sys.stdin.isatty()
+
+
 def forget_typed() -> bool:
     """Forgets what was typed before a question; returns whether a person can answer at all."""
-    if termios is None or not _is_at_keyboard():
+    if not _is_at_keyboard():
         return False
     termios.tcflush(sys.stdin.fileno(), termios.TCIFLUSH)
     return True
@@ -27,6 +32,7 @@ def has_typed_line() -> bool:
 
 def _is_at_keyboard() -> bool:
     """Whether standard input is a terminal that this program has in the foreground."""
-    if sys.stdin is None or not sys.stdin.isatty():
+    try:
+        return has_keyboard() and os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()
+    except OSError:  # not the terminal that controls this program
         return False
-    return os.tcgetpgrp(sys.stdin.fileno()) == os.getpgrp()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 
@@ -119,9 +117,10 @@ def test_a_paused_run_that_slept_is_resumed_by_fresh_readings_alone() -> None:
     robot.until_robot(RobotState.PAUSED)
     robot.away(100.0, 0)
     assert robot.snapshot.robot is RobotState.PAUSED
-    with pytest.raises(StateError, match="has not reported its strokes"):
-        robot.machine.resume("Ada", robot.now)
-    robot.wait(0.5)
+    assert "The program did not run for 100." in robot.snapshot.sentence
+    with pytest.raises(StateError, match="just come back"):
+        robot.machine.resume("Ada", robot.now)  # asked for while nobody could answer
+    robot.wait(1.1)
     robot.machine.resume("Ada", robot.now)
     assert robot.until_robot(*ENDS).robot is RobotState.DONE
 
@@ -161,16 +160,6 @@ def test_a_stop_that_was_under_way_is_confirmed_afterwards() -> None:
         assert "NOT STOPPED" not in " ".join(change.cause for change in robot.machine.transitions)
 
 
-@pytest.mark.parametrize("seconds", [2.0, 20.0, math.pi])
-def test_an_idle_robot_is_not_lost_over_it(seconds: float) -> None:
-    robot = VirtualRobot()
-    robot.arm()
-    robot.wait(1.0)
-    robot.away(seconds, 0)
-    robot.wait(3.0)
-    assert robot.snapshot.robot is RobotState.ARMED
-
-
 @pytest.mark.parametrize("kept", KEPT.values(), ids=KEPT.keys())
 @pytest.mark.parametrize("moment", [0.05, 0.3, 0.8, 1.4])
 def test_a_jog_ends_after_the_move_that_is_on(kept: int, moment: float) -> None:
@@ -205,7 +194,7 @@ def test_a_motor_test_is_stopped_and_blames_no_motor(seconds: float) -> None:
 
 
 @pytest.mark.parametrize("kept", KEPT.values(), ids=KEPT.keys())
-def test_a_reset_and_a_clear_end_as_usual(kept: int) -> None:
+def test_a_clear_is_not_gone_on_with(kept: int) -> None:
     robot = VirtualRobot()
     robot.begin(walk())
     robot.wait(4.0)
@@ -213,14 +202,34 @@ def test_a_reset_and_a_clear_end_as_usual(kept: int) -> None:
     robot.until_robot(RobotState.STOPPED)
     robot.machine.clear("Ada", robot.now)
     robot.away(20.0, kept)
-    ended = robot.until(lambda s: s.robot is RobotState.DISARMED or "was lost" in s.sentence)
-    if ended.robot is not RobotState.DISARMED:
-        robot.until(lambda s: "Nothing moves until you clear" in s.sentence)
-        robot.machine.clear("Ada", robot.now)
-        robot.until_robot(RobotState.DISARMED)
+    ended = robot.until(lambda s: "Nothing moves until you clear" in s.sentence)
+    assert ended.robot is RobotState.STOPPED
+    assert "The program did not run for" in ended.sentence
+    assert "s,0" not in payloads(robot)
+    robot.machine.clear("Ada", robot.now)
+    robot.until_robot(RobotState.DISARMED)
+
+
+@pytest.mark.parametrize("kept", KEPT.values(), ids=KEPT.keys())
+def test_a_reset_ends_by_where_the_robot_stands(kept: int) -> None:
+    robot = VirtualRobot()
+    robot.arm()
+    robot.machine.send(make_plan([[6.0] * 12]), "Ada", robot.now)
+    robot.until_robot(RobotState.DONE)
     robot.machine.arm("Ada")
     robot.machine.reset("Ada", robot.now)
     robot.wait(0.3)
     robot.away(20.0, kept)
     assert robot.until_robot(RobotState.ARMED, RobotState.FAULT).robot is RobotState.ARMED
     assert max(robot.strokes_mm) < 2.0
+
+
+@pytest.mark.parametrize(("seconds", "state"), [(3.0, RobotState.ARMED), (5.0, RobotState.DISARMED)])
+def test_an_armed_robot_is_disarmed_after_a_long_time(seconds: float, state: RobotState) -> None:
+    robot = VirtualRobot()
+    robot.arm()
+    robot.wait(1.0)
+    robot.away(seconds, 0)
+    robot.wait(3.0)
+    assert robot.snapshot.robot is state
+    assert ("did not run for" in robot.snapshot.sentence) is (state is RobotState.DISARMED)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import pty
+import select
 import signal
 import subprocess
 import time
@@ -101,6 +103,42 @@ def test_a_studio_that_was_put_aside_is_done_or_pauses(tmp_path: Path, seconds: 
         assert ended["robot"] == "done", ended
         assert ended["run"]["reached"] == ended["run"]["count"]
         assert noted(studio) == 1
+
+
+def test_a_person_at_the_keyboard_resumes_what_was_put_aside(way: Path, tmp_path: Path) -> None:
+    with emulator_process(SPEED) as robot:
+        words = ("send", str(way), "--robot", robot, "--yes", "--data", str(tmp_path))
+        sender, terminal = pty.fork()
+        if sender == 0:
+            os.chdir(PROJECT)
+            os.environ["LOGNAME"] = "Ada"
+            os.execv(PROGRAM[0], [*PROGRAM, *words])
+        said = Said(terminal)
+        said.wait_for("waypoint 2 of")
+        os.write(terminal, b"\n")  # typed before it was asked, so it is no answer
+        put_aside(sender, AWAY[-1])
+        said.wait_for("Press Enter to resume")
+        time.sleep(2.0)
+        assert os.waitpid(sender, os.WNOHANG) == (0, 0)
+        os.write(terminal, b"\n")
+        said.wait_for("The plan is done.")
+        assert os.waitstatus_to_exitcode(os.waitpid(sender, 0)[1]) == 0
+        os.close(terminal)
+
+
+class Said:
+    """What a program says at a terminal."""
+
+    def __init__(self, terminal: int) -> None:
+        self.text = ""
+        self._terminal = terminal
+
+    def wait_for(self, words: str) -> None:
+        deadline = time.monotonic() + 180.0
+        while words not in self.text:
+            assert time.monotonic() < deadline, self.text
+            if select.select([self._terminal], [], [], 0.1)[0]:
+                self.text += os.read(self._terminal, 65536).decode(errors="replace")
 
 
 def noted(studio: StudioProcess) -> int:

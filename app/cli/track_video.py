@@ -8,6 +8,7 @@ from app.cli.common.progress import clear_line, rewrite_line
 from app.export.trajectory_files import read_text
 from app.videos.tracking_service import track_sentence
 from app.vision.tracking import track_video
+from app.vision.video_io import silence_libraries
 from core.errors import InputError
 from core.vision.setup import TrackingSetup
 from core.vision.track import FootTrack
@@ -35,8 +36,12 @@ def tracked(path: Path, setup: TrackingSetup) -> FootTrack:
         rewrite_line(f"{path}: {share:4.0%} tracked")
         return True
 
-    found = track_video(path, setup, progress)
-    clear_line()
+    end_silence = silence_libraries()
+    try:
+        found = track_video(path, setup, progress)
+        clear_line()
+    finally:
+        end_silence()
     if found is None:
         raise InputError(f"{path} was not tracked to its end.", str(path))
     note(f"{path}: {track_sentence(found)}")

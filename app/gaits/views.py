@@ -34,7 +34,7 @@ from core.wire.robot_time import estimate_seconds, move_estimates, stop_time
 from core.wire.waypoint_merging import WaypointPlan
 
 _stamps = itertools.count(1)
-"""A page takes the stamps of a studio that was started again as new ones."""
+"""Of this start of the studio; a page takes those of another start as new ones (`start` of `hello`)."""
 
 
 def line_view(

@@ -94,7 +94,7 @@ class RecordedBridge:
             "from": run_range.first,
             "iterations": run_range.iterations,
             "started": self._span.started,
-            "started_monotonic": boot_seconds(),
+            "started_monotonic": boot_seconds(),  # an older name; goes on while the machine is suspended
             "ended": None,
             "state": "running",
             "sentence": "",

@@ -109,7 +109,8 @@ class RunRecorder:
         """Starts the record of a run.
 
         Args:
-            content: needs `id`, `started` and `started_monotonic`.
+            content: needs `id`, `started` and `started_monotonic`, which is the start by `boot_seconds`; the
+                name is older than that clock.
             plan: what the run is to do, where it is to be compared with that.
             after: number of the last change of state before the run.
 

@@ -73,7 +73,7 @@ def run_mcap(record: RunRecord) -> bytes:
     """The run's file: measured and commanded strokes, states, raw bytes, and the record as metadata.
 
     It holds JSON messages with their schemas. Their times are the wall clock's at the run's beginning plus
-    the monotonic time since.
+    the time since by `boot_seconds`.
     """
     from mcap.writer import Writer  # only who asks for it waits for the package
 

@@ -6,10 +6,10 @@ import stat
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from app.common.printable import printable_text
 from app.store.plain_file import write_atomically
 from app.store.storage_errors import file_error
 from core.errors import InputError
+from core.text.printable import printable_text
 
 _MOST_LINKS = 40
 """Links that are followed, as by the system."""
@@ -28,9 +28,9 @@ def write_named(path: Path, content: str | bytes, before: Callable[[], object] =
 
     Raises:
         StorageError: the disk does not take it; a plain file is as it was.
-        InputError: nothing can be written there.
+        InputError: nothing can be written there, or the text holds half a character (a lone surrogate).
     """
-    data = content if isinstance(content, bytes) else content.encode()
+    data = content if isinstance(content, bytes) else _encoded(content, path)
     try:
         number, state = open_file_number(path), _state(path)
         if number is not None:
@@ -47,6 +47,20 @@ def write_named(path: Path, content: str | bytes, before: Callable[[], object] =
         if error.errno == errno.ELOOP:
             raise InputError(f"{path} is a link that leads nowhere but to links.", str(path)) from error
         raise file_error(error, path) from error
+
+
+def _encoded(text: str, path: Path) -> bytes:
+    try:
+        return text.encode()
+    except UnicodeEncodeError as error:
+        line = text.count("\n", 0, error.start) + 1
+        beside = text[: error.start].rpartition("\n")[2][-30:]
+        where = f"holds half a character after “{beside}”" if beside else "begins with half a character"
+        raise InputError(
+            f"{path} cannot be written: line {line} of its text {where}. Take it out of the name or the note "
+            "that it comes from.",
+            str(path),
+        ) from error
 
 
 def is_plain(path: Path) -> bool:

@@ -38,7 +38,7 @@ class EntryKind(IntEnum):
 
 @dataclass(frozen=True)
 class Entry:
-    """Something that happened in a run, at a monotonic time in s."""
+    """Something that happened in a run, at a time in s by `boot_seconds`."""
 
     kind: EntryKind
     time: float

@@ -9,10 +9,10 @@ from app.bridge.states import Direction
 from app.store.run_journal import Entry, EntryKind
 
 ByteRow = tuple[str, float, str, bytes]
-"""Run, monotonic time in s, direction, data."""
+"""Run, time in s by `boot_seconds`, direction, data."""
 
 StateRow = tuple[str, float, str, str, str]
-"""Run, monotonic time in s, link, robot, cause."""
+"""Run, time in s by `boot_seconds`, link, robot, cause."""
 
 
 def byte_row(run: str, entry: Entry) -> ByteRow:

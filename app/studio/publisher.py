@@ -1,5 +1,6 @@
 """Publishes changes to the pages: gaits with their plans, the list of gaits, jobs, trials, the robot."""
 
+import secrets
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 
@@ -56,6 +57,7 @@ class Publisher:
         self._job_repository = job_repository
         self._planned = planned
         self._list = GaitSummaries(gaits)
+        self._start = secrets.token_hex(6)  # a page knows by it that the studio was started again
         self._troubles: dict[str, str] = {}
         self._simulated_as: dict[str, frozenset[str]] = {}
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
@@ -68,6 +70,7 @@ class Publisher:
         """
         return {
             "type": "hello",
+            "start": self._start,
             "version": VERSION,
             "gaits": self.summaries(),
             "jobs": self.job_views(),

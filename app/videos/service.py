@@ -231,10 +231,10 @@ class VideoService:
         Raises:
             InputError: the video ends before it.
         """
-        content, path = self._known(video), self.path(video)
-        number = frame or 0
+        path, number = self.path(video), frame or 0
         if seconds is not None:
             number = self._number_at(video, seconds)
+        content = self._known(video)
         if content["frames"] and not 0 <= number < content["frames"]:
             raise InputError(
                 f"“{content['name']}” has {content['frames']} pictures, 0 to {content['frames'] - 1}; there "
@@ -244,8 +244,15 @@ class VideoService:
         return Source(path, number, name=f"picture {number}")
 
     def times(self, video: str) -> Floats:
-        """(n,) time of each picture after the first, s."""
-        times: Floats = ask(self._vision.interactive, ReadTimes(self.path(video)), LOOK_SECONDS)
+        """(n,) time of each picture after the first, s.
+
+        Facts by an earlier version, which counted the pictures that a file claims, are put right.
+        """
+        facts: Facts
+        times: Floats
+        facts, times = ask(self._vision.interactive, ReadTimes(self.path(video)), LOOK_SECONDS)
+        if facts.count != self._known(video)["frames"]:
+            self.change(video, **facts_content(facts))
         return times
 
     def _number_at(self, video: str, seconds: float) -> int:

@@ -8,6 +8,9 @@ from core.errors import InputError
 LOOKED = 1 << 16
 """Bytes at the beginning of a file in which marks of its kind are looked for."""
 
+MOST_INDEX = 1 << 26
+"""Bytes of a file's index that are read; a damaged length may claim the whole film."""
+
 TRIMMED = 0.25
 """An edit list that begins later than this trims the film, s; encoders begin a few pictures later."""
 
@@ -134,11 +137,11 @@ def _boxes(path: Path) -> dict[bytes, tuple[int, int]]:
 
 
 def _index(path: Path) -> bytes:
-    """The index of an MP4 file, its box “moov”; empty where there is none."""
+    """The index of an MP4 file, its box “moov”, as far as `MOST_INDEX`; empty where there is none."""
     begin, end = _boxes(path).get(b"moov", (0, 0))
     with path.open("rb") as file:
         file.seek(begin)
-        return file.read(end - begin)
+        return file.read(min(end - begin, MOST_INDEX))
 
 
 def begins_later(path: Path) -> bool:

@@ -23,7 +23,7 @@ class RecordingJob:
 
     Args:
         folder: made for it.
-        began: the recording's clock begins here, s of the monotonic clock.
+        began: the recording's clock begins here, by `boot_seconds`.
         setup: for finding feet; None where none are looked for.
         name: of the camera, for sentences.
     """
@@ -87,7 +87,7 @@ class Recorder:
         """Takes a picture.
 
         Args:
-            time: of the monotonic clock, s.
+            time: when it was taken, by `boot_seconds`.
             picture: as it is.
         """
         at = time - self.order.began

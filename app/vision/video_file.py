@@ -104,7 +104,8 @@ class VideoFile:
             raise InputError(f"{self._name} has no frame rate; save it again with one.", self._name)
         self._is_row |= bool((np.diff(self._file_times) <= SAME).any())
         self.times = increasing_times(self._file_times, rate)
-        remark = "" if self._is_row else self._remark(held.times.size, told_count / told_rate)
+        is_told = told_rate > 0 and not self._is_row
+        remark = self._remark(held.times.size, told_count / told_rate, rate) if is_told else ""
         self.facts = Facts(rate, self._file_times.size, size, remark)
         self._open_anew()
 
@@ -133,10 +134,10 @@ class VideoFile:
                 tell()
         return np.array(times)
 
-    def _remark(self, held: int, told_seconds: float) -> str:
+    def _remark(self, held: int, told_seconds: float, rate: float) -> str:
         """What is missing of the film, in a sentence; "" where nothing is."""
         count = self._file_times.size
-        lasts = self.times[-1] + self.times[-1] / max(count - 1, 1)
+        lasts = self.times[-1] * count / (count - 1) if count > 1 else 1.0 / rate
         if lasts >= SHORTER * told_seconds or begins_later(self._path):
             return ""
         if count < held:

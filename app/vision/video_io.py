@@ -2,12 +2,15 @@
 
 import os
 import sys
+from collections.abc import Callable
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.vision.opencv import cv2
 from core.errors import InputError
+from core.text.printable import PrintableStream, printable_stream
 
 Picture = NDArray[np.uint8]
 """(height, width, 3) blue, green, red."""
@@ -21,17 +24,47 @@ def use_one_thread() -> None:
     cv2.setNumThreads(1)
 
 
-def silence_libraries() -> None:
+def silence_libraries() -> Callable[[], None]:
     """Keeps what C libraries print in this process off the terminal and the log.
 
     libpng and libjpeg write on descriptor 2 by themselves, whatever OpenCV is told.
-    Python's own lines still go to where that led.
+    Python's own lines still go to where that led, without control characters.
+
+    Returns:
+        Gives descriptor 2 back to everybody.
     """
-    if sys.stderr is not None:
-        sys.stderr = open(os.dup(2), "w", buffering=1, errors="backslashreplace")  # noqa: SIM115
+    try:
+        shown = os.dup(2)
+    except OSError:  # it is closed, and shows nothing
+        return lambda: None
+    stream = _python_lines()
+    before = None if stream is None else stream.stream
+    if stream is not None:
+        stream.flush()
+        stream.stream = open(shown, "w", buffering=1, closefd=False)  # noqa: SIM115
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 2)
     os.close(nowhere)
+
+    def undo() -> None:
+        if stream is not None and before is not None:
+            stream.flush()
+            stream.stream = before
+        os.dup2(shown, 2)
+        os.close(shown)
+
+    return undo
+
+
+def _python_lines() -> PrintableStream | None:
+    """`sys.stderr`, from then on without control characters; None where it is not on descriptor 2."""
+    try:
+        if sys.stderr is None or sys.stderr.fileno() != 2:
+            return None
+    except (OSError, ValueError):  # a notebook's, say, is on none
+        return None
+    sys.stderr = printable_stream(sys.stderr)
+    return cast(PrintableStream, sys.stderr)
 
 
 class Device:

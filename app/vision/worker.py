@@ -78,14 +78,15 @@ class ReadFacts:
 
 @dataclass(frozen=True)
 class ReadTimes:
-    """The time of each picture of a video after the first, s: (n,)."""
+    """Facts of a video, and (n,) the time of each picture after the first, s."""
 
     path: Path
 
-    def answer(self, repository: FrameSourceCache, report: Report) -> Floats:
+    def answer(self, repository: FrameSourceCache, report: Report) -> tuple[Facts, Floats]:
         """Reads them."""
         del report
-        return repository.frames(self.path).times
+        frames = repository.frames(self.path)
+        return frames.facts, frames.times
 
 
 @dataclass(frozen=True)

@@ -1,1 +1,1 @@
-"""Files of people as text: bytes to text, plain numbers, tables in any dialect, JSON and TOML."""
+"""Text of people: from bytes, plain numbers, tables in any dialect, JSON, TOML, and as terminals show it."""

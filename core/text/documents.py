@@ -20,11 +20,10 @@ _LINE = re.compile(r"line ([0-9]+)")
 _KEY = re.compile(r'"((?:[^"\\]|\\.)*)"\s*:|(?m:^)[ \t]*([\w.-]+)[ \t]*=')
 _TOML_WORD = re.compile(
     r'"""(?:[^\\]|\\.)*?"""|\'\'\'.*?\'\'\'|"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'|#[^\n]*'
-    r"|(?m:^[ \t]*\[[^\]\n]*\]+[ \t]*(?:#[^\n]*)?$)"
-    r"|[-+.\w]+[ \t]*=|([-+.:\w]+)",
+    r"|[-+.\w]+(?:[ \t]*=|[ \t]+\.)|([-+.:\w]+)|[\[\]]",
     re.DOTALL,
 )
-"""Strings, comments, heads of tables and keys; what is caught is a bare value."""
+"""Strings, comments, keys and brackets; what is caught is a bare value, or a name in a table's head."""
 _TOML_NUMBER = re.compile(
     r"[+-]?(?:inf|nan|0[xob][0-9A-Fa-f_]+|[0-9][0-9_]*(?:\.[0-9_]+)?(?:[eE][+-]?[0-9_]+)?)", re.ASCII
 )
@@ -103,11 +102,17 @@ def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
 
 
 def _toml_numbers(text: str) -> Iterator[re.Match[str]]:
-    return (
-        match
-        for match in _TOML_WORD.finditer(text)
-        if match[1] is not None and _TOML_NUMBER.fullmatch(match[1])
-    )
+    """The numbers among the values of a TOML text."""
+    depth, is_head = 0, False
+    for match in _TOML_WORD.finditer(text):
+        if match[0] == "[":
+            if depth == 0:
+                is_head = not text[text.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
+            depth += 1
+        elif match[0] == "]":
+            depth -= 1
+        elif match[1] is not None and not (is_head and depth) and _TOML_NUMBER.fullmatch(match[1]):
+            yield match
 
 
 def _is_json_number(word: str | None) -> bool:

@@ -107,15 +107,6 @@ def parse_waypoint_csv(text: str, legs: int = 4, name: str = "waypoint file") ->
     return read_waypoint_csv(text, name, legs).waypoints
 
 
-def waypoint_legs(text: str, name: str = "waypoint file") -> int:
-    """Number of legs whose strokes a waypoint file holds, by its header.
-
-    Raises:
-        InputError: the header is not one of a waypoint file.
-    """
-    return _legs_of_header(read_table(text, name), None)
-
-
 def _legs_of_header(table: Table, legs: int | None) -> int:
     """The number of legs, which the header confirms."""
     head = table.head

@@ -12,11 +12,11 @@ from types import FrameType
 from typing import IO, Any, AnyStr
 
 from app.common.json import finite
-from app.common.printable import printable_line
 from app.common.signals import Interrupted, ending_signals
 from app.store.named_file import is_plain, open_file_number
 from core.errors import InputError
 from core.findings import SendCost, Severity, Verdict
+from core.text.printable import printable_line
 
 INFEASIBLE, NOT_FIT = 3, 4
 """Exit status of a command that found no motion or pattern, and of one whose check failed."""

@@ -3,8 +3,7 @@
 import sys
 
 from app.cli.common.output import drop
-from app.cli.common.streams import PrintableStream
-from app.common.printable import printable_line
+from core.text.printable import PrintableStream, printable_line
 
 _CLEAR = "\r\x1b[K"
 

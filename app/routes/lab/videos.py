@@ -162,18 +162,17 @@ async def play_video(
     most: Width = 960,
 ) -> StreamingResponse:
     """The video's pictures in real time (multipart), to its end; late ones are left out."""
-    view = await run_in_threadpool(studio.lab.videos.view, video)
-    first = await run_in_threadpool(studio.lab.videos.source, video, from_frame)
     times = await run_in_threadpool(studio.lab.videos.times, video)
+    first = await run_in_threadpool(studio.lab.videos.source, video, from_frame)
     due = (times - times[from_frame]) / speed
 
     async def parts() -> AsyncIterator[bytes]:
         begun, number = time.monotonic(), from_frame
-        while number < view["frames"] and not studio.hub.is_closed:
+        while number < times.size and not studio.hub.is_closed:
             source = Source(first.path, number, name=first.name)
             try:
                 yield part(await run_in_threadpool(studio.lab.videos.picture, source, most))
-            except FootfallError:  # a file may hold fewer pictures than it says
+            except FootfallError:  # it does not decode, or the file is gone
                 return
             late = int(np.searchsorted(due, time.monotonic() - begun, side="right")) - 1
             number = max(number + 1, late)
@@ -193,11 +192,11 @@ async def look_at_video(video: str, look: LookBody, studio: TheStudio, frame: Fr
 @router.post("/{video}/boards")
 async def find_checkerboards(video: str, asked: CheckerboardsBody, studio: TheStudio) -> Json:
     """Where a checkerboard is in some pictures of a video; `left` are those for another request."""
-    view = await run_in_threadpool(studio.lab.videos.view, video)
     frames = asked.frames
     if frames is None:
-        count = min(BOARD_FRAMES, max(view["frames"], 1))
-        frames = [number * max(view["frames"] - 1, 0) // max(count - 1, 1) for number in range(count)]
+        last = (await run_in_threadpool(studio.lab.videos.times, video)).size - 1
+        count = min(BOARD_FRAMES, last + 1)
+        frames = [number * last // max(count - 1, 1) for number in range(count)]
     boards: list[Json] = []
     due = time.monotonic() + BOARD_SECONDS
     for frame in frames:

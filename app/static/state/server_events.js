@@ -2,7 +2,15 @@
 
 import { onRenamed } from "../api/author.js";
 import { openSocket, takeFirst } from "../api/socket.js";
-import { acceptLine, acceptRobot, acceptSources, acceptSteps, acceptView, withJob } from "./store.js";
+import {
+  acceptHello,
+  acceptLine,
+  acceptRobot,
+  acceptSources,
+  acceptSteps,
+  acceptView,
+  withJob,
+} from "./store.js";
 
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 5000;
@@ -23,19 +31,7 @@ export const sendToStudio = (text) => send(text);
  * @type {Record<string, (store: Store, message: Message) => void>}
  */
 const RECEIVERS = {
-  hello: (store, { version, gaits, robot, storage, jobs, motor_test: motorTest }) =>
-    store.set({
-      connected: true,
-      // A studio that was started again counts its answers from 1.
-      view: store.state.view && { ...store.state.view, stamp: 0 },
-      greeted: true,
-      version,
-      gaits,
-      robot,
-      storage,
-      motorTest,
-      jobs: jobs.reduce(withJob, []),
-    }),
+  hello: acceptHello,
   gaits: (store, { gaits }) => store.set({ gaits }),
   gait: (store, { view }) => {
     acceptView(store, view);

@@ -17,6 +17,7 @@ const INITIAL = Object.freeze({
   connected: false,
   greeted: false,
   version: "",
+  start: "",
   gaits: Object.freeze([]),
   jobs: Object.freeze([]),
   robot: null,
@@ -65,8 +66,8 @@ const INITIAL = Object.freeze({
 
 /**
  * The fields that begin with a value; every other one begins as null.
- * @typedef {{connected: boolean, greeted: boolean, version: string, operator: string, tool: string,
- *   physicsSets: number, gaits: Record<string, any>[], jobs: Record<string, any>[],
+ * @typedef {{connected: boolean, greeted: boolean, version: string, start: string, operator: string,
+ *   tool: string, physicsSets: number, gaits: Record<string, any>[], jobs: Record<string, any>[],
  *   tracks: Record<string, any>[], pending: Edit[], left: Edit[], segmentDrafts: Record<string, any>,
  *   checked: Record<string, any>, trialChanges: Record<string, any>}} Begun
  * @typedef {Begun & Record<Exclude<keyof typeof INITIAL, keyof Begun>, any>} State
@@ -220,6 +221,28 @@ export function checkGone(view, { revision }) {
 export function editsMissingIn({ edits: made = [] }, edits) {
   const had = edits.findLastIndex(({ number }) => made.includes(number)) + 1;
   return had ? edits.slice(had) : edits;
+}
+
+/**
+ * Takes over the whole state of a studio. One that was started again counts its answers from 1.
+ * @param {Store} store
+ * @param {Record<string, any>} hello
+ */
+export function acceptHello(store, { start, version, gaits, robot, storage, jobs, motor_test: motorTest }) {
+  const { start: before, view, robot: shown } = store.state;
+  const isAnother = start !== before;
+  store.set({
+    connected: true,
+    greeted: true,
+    start,
+    view: isAnother && view ? { ...view, stamp: 0 } : view,
+    version,
+    gaits,
+    robot: !isAnother && shown?.stamp > robot.stamp ? shown : robot,
+    storage,
+    motorTest,
+    jobs: jobs.reduce(withJob, []),
+  });
 }
 
 /**

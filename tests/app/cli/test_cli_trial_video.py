@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,7 @@ import pytest
 
 from tests.app.routes.test_videos_http import SETUP, TRACK
 from tests.support.command import run, run_json
+from tests.support.studio_process import PROJECT
 from tests.support.trials.rendered import write_video
 from tests.support.trials.tracks import RATE
 
@@ -39,6 +42,30 @@ def test_a_film_is_tracked_and_its_figures_are_printed(
     assert answer["files"][0]["frames"] == len(TRACK.feet[::3])
     _, _, said = run(capsys, *words)
     assert f"{len(TRACK.feet[::3])} frames at 13.0 a second" in said
+
+
+@pytest.mark.heavy
+def test_what_libraries_print_while_a_film_is_tracked_is_not_shown(film: Path, tmp_path: Path) -> None:
+    script = """
+import os, sys
+import app.cli.track_video as track_video
+from app.cli import main
+track = track_video.track_video
+def loud(*given):
+    os.write(2, b"libpng error: IDAT: CRC error")
+    return track(*given)
+track_video.track_video = loud
+status = main(sys.argv[1:])
+os.write(2, b"The end.")
+sys.exit(status)
+"""
+    words = ("trial", str(film), "--setup", setup_file(tmp_path), "--expect", "1.2")
+    done = subprocess.run(
+        [sys.executable, "-c", script, *words], cwd=PROJECT, capture_output=True, text=True, check=True
+    )
+    assert done.stderr.endswith("The end.")
+    assert "frames at 13.0 a second" in done.stderr
+    assert "libpng" not in done.stderr
 
 
 @pytest.mark.parametrize(

@@ -15,10 +15,11 @@ from pathlib import Path
 
 import pytest
 
-from app.cli.common.streams import LogFormatter, PrintableStream, prepare_streams
+from app.cli.common.streams import LogFormatter, prepare_streams
 from app.documents.gait_json import gait_content
 from app.store.folder_lock import studio_address
 from core.library.library import library
+from core.text.printable import PrintableStream
 from tests.support.closed_terminal import in_terminal
 from tests.support.command import run, run_json
 from tests.support.studio_process import PROJECT, wait_for

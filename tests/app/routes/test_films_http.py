@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -43,6 +45,30 @@ def test_pictures_of_an_uneven_film_are_found_and_named_by_their_own_times(
     late = studio.ask("GET", f"{video}/picture.jpg?seconds=9")
     assert late.status == 422
     assert "there is no picture at 9.00 s" in late.content["error"]
+
+
+def test_a_film_whose_pictures_an_earlier_version_counted_too_high_is_played_and_searched(
+    studio: StudioProcess, data: Path, tmp_path: Path
+) -> None:
+    content = films.film(tmp_path / "t.mp4", count=30)
+    video = studio.ask("POST", "/api/videos?name=old.mp4", content).content["id"]
+    for method, path, body in (
+        ("GET", "stream?from_frame=45", None),
+        ("GET", "picture.jpg?frame=45", None),
+        ("POST", "boards", {"columns": 4, "rows": 3, "frames": [45]}),
+        ("POST", "boards", {"columns": 4, "rows": 3}),
+    ):
+        with closing(sqlite3.connect(data / "studio.sqlite3")) as database, database:
+            database.execute(
+                "UPDATE video SET content=json_set(content, '$.frames', 60) WHERE id=?", (video,)
+            )
+        answer = studio.ask(method, f"/api/videos/{video}/{path}", body)
+        if body is None or "frames" in body:
+            assert (answer.status, answer.content["where"]) == (422, "frame")
+            assert "picture 45" in answer.content["error"]
+        else:
+            assert answer.content["boards"]
+    assert studio.ask("GET", f"/api/videos/{video}").content["frames"] == 30
 
 
 def test_an_upload_of_a_codec_that_is_not_read_names_it_and_the_way_out_and_leaves_nothing(

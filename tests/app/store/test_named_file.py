@@ -297,3 +297,19 @@ def test_the_form_is_that_of_the_name_or_the_first_one() -> None:
     assert form_of(Path("a.json"), forms) == ".json"
     assert form_of(Path("a.txt"), forms) is None
     assert form_of(Path(os.devnull), forms) == ".csv"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a\ngait \ud800 walk", "line 2 of its text holds half a character after “gait ”"),
+        ("\udcff", "line 1 of its text begins with half a character"),
+        ("x\n\udc80", "line 2 of its text begins with half a character"),
+    ],
+)
+def test_a_text_with_half_a_character_is_refused_and_leaves_the_file(
+    old: Path, text: str, words: str
+) -> None:
+    with pytest.raises(InputError, match=words):
+        write_named(old, text)
+    assert old.read_text() == OLD

@@ -168,6 +168,17 @@ def test_a_bare_row_of_pictures_is_counted_and_sought_in(service: VideoService) 
         service.source(video["id"], 12)
 
 
+def test_a_count_of_pictures_that_an_earlier_version_kept_is_put_right(service: VideoService) -> None:
+    upload = service.begin("row.mjpeg", None)
+    upload.add(GREY * 12)
+    video = service.keep(upload)["id"]
+    service.change(video, frames=20, seconds=99.0)
+    assert service.times(video).size == 12
+    assert (service.view(video)["frames"], service.view(video)["seconds"]) == (12, pytest.approx(12 / 25))
+    with pytest.raises(InputError, match="there is no picture 12"):
+        service.source(video, 12)
+
+
 def test_an_answer_that_does_not_come_in_time_is_a_sentence(
     service: VideoService, vision: VisionServices
 ) -> None:

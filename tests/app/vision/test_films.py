@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.vision.film_faults import codec_name
+from app.vision import film_faults
+from app.vision.film_faults import begins_later, codec_name
 from app.vision.frame_source import increasing_times, rate_of
 from app.vision.video_file import VideoFile
 from core.errors import InputError
@@ -89,13 +90,46 @@ def test_what_libraries_print_by_themselves_stays_in_a_vision_process(tmp_path: 
     script = """
 import os, sys
 from app.vision.video_io import silence_libraries
-silence_libraries()
+end_silence = silence_libraries()
 os.write(2, b"libpng error: IDAT: CRC error")
-print("A line of the program's own.", file=sys.stderr)
+print("A line of the program's own, “\x1b[2J”.", file=sys.stderr)
+end_silence()
+os.write(2, b"A line of a library.\\n")
+silence_libraries()
+raise ValueError("the gait “\x1b[31m”")
 """
     command = [sys.executable, "-c", script]
-    done = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True)
-    assert done.stderr == "A line of the program's own.\n"
+    done = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=False)
+    own, library, *crash = done.stderr.splitlines()
+    assert (own, library) == (r"A line of the program's own, “\u001b[2J”.", "A line of a library.")
+    assert crash[-1] == r"ValueError: the gait “\u001b[31m”"
+    closed = subprocess.run(["sh", "-c", 'exec "$@" 2>&-', "sh", *command], cwd=PROJECT, check=False)
+    assert closed.returncode == 1
+
+
+@pytest.mark.parametrize(("ending", "code"), [("mp4", "mp4v"), ("avi", "MJPG"), ("mkv", "FFV1")])
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_film_of_one_or_two_pictures_is_not_cut_off(
+    ending: str, code: str, count: int, tmp_path: Path
+) -> None:
+    path = tmp_path / f"walk.{ending}"
+    film(path, code, count)
+    read = VideoFile(path)
+    assert (read.facts.count, read.facts.remark) == (count, "")
+    read.close()
+
+
+def test_of_an_index_that_claims_the_whole_film_a_part_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "walk.mp4"
+    content = index_first(film(path))
+    begin = content.find(b"moov") - 4
+    wrong = content[:begin] + (1 << 31).to_bytes(4, "big") + content[begin + 4 :]
+    path.write_bytes(trimmed(wrong, 10_000_000))
+    assert begins_later(path)
+    monkeypatch.setattr(film_faults, "MOST_INDEX", wrong.find(b"elst") - begin)
+    assert not begins_later(path)
 
 
 CUT: list[tuple[str, str, Change, int, str]] = [

@@ -15,7 +15,7 @@ from core.motion.trajectory import Trajectory
 from core.recorded.waypoint_motion import motion_of_waypoints
 from core.robot.model import RobotModel, load_robot
 from core.wire.waypoint_path import waypoints_from_trajectory
-from core.wire.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv, waypoint_legs
+from core.wire.waypoints import Waypoints, format_waypoint_csv, read_waypoint_csv
 from solver_jobs import solve_exact, solve_live
 
 ROUNDING = 2e-6
@@ -26,7 +26,7 @@ MODEL = load_robot("deltawalker")
 def written(model: RobotModel, trajectory: Trajectory) -> tuple[str, Waypoints]:
     """A waypoint file's text and what is read of it."""
     text = format_waypoint_csv(waypoints_from_trajectory(model, trajectory))
-    return text, parse_waypoint_csv(text, waypoint_legs(text))
+    return text, read_waypoint_csv(text).waypoints
 
 
 def solved(gait_id: str) -> Trajectory:
@@ -80,7 +80,7 @@ def test_rings_of_other_sizes_stand_where_they_stand(robot: str) -> None:
     strokes = np.full((3, model.leg_count, 3), 0.005)
     strokes[1] = 0.007
     text = format_waypoint_csv(Waypoints(strokes, np.full(3, 0.5)))
-    motion = motion_of_waypoints(model, parse_waypoint_csv(text, waypoint_legs(text)))
+    motion = motion_of_waypoints(model, read_waypoint_csv(text).waypoints)
     assert motion.trajectory.leg_count == model.leg_count
     assert motion.trajectory.body_world[:, 2] - motion.trajectory.body_world[0, 2] == pytest.approx(
         [0.0, 0.002, 0.0]
@@ -129,13 +129,14 @@ def test_strokes_at_which_no_leg_can_be_assembled_are_named() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "legs"), [("duration_s,h1,h2,h3\n", 1), ("\ufeffduration_s,h1,h2,h3,h4,h5,h6\r\n1,", 2)]
+    ("text", "legs"),
+    [("duration_s,h1,h2,h3\n1,2,3,4\n", 1), ("\ufeffduration_s,h1,h2,h3,h4,h5,h6\r\n1,2,3,4,5,6,7", 2)],
 )
 def test_the_header_says_the_number_of_feet(text: str, legs: int) -> None:
-    assert waypoint_legs(text) == legs
+    assert read_waypoint_csv(text).waypoints.strokes.shape == (1, legs, 3)
 
 
 @pytest.mark.parametrize("text", ["duration_s\n", "duration_s,h1,h2\n", "duration_s,h1,h3,h2\n", ""])
 def test_another_header_is_refused(text: str) -> None:
     with pytest.raises(InputError, match="line 1: the header must read duration_s,h1,"):
-        waypoint_legs(text, "way.csv")
+        read_waypoint_csv(text, "way.csv")

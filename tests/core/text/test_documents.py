@@ -86,9 +86,22 @@ literal = '1_0'
 """
 
 
+HEADS = """[inf] # nan
+[ 0x10 . "a]" ]
+inf . nan = {1_0 = 3, 0b1 = [ 4 ]}
+[[1_0]]
+rows = [
+  [1, 2], # 1_0
+  ["[", 3]
+]
+[[1_0]]
+"""
+
+
 @pytest.mark.parametrize("edit", [str, lambda t: "\ufeff" + t, lambda t: t.replace("\n", "\r\n")])
 def test_plain_toml_is_read_as_its_parser_reads_it(edit: Any) -> None:
-    assert toml_content(edit(TOML).encode(), "mine.toml") == tomllib.loads(TOML)
+    for text in (TOML, HEADS):
+        assert toml_content(edit(text).encode(), "mine.toml") == tomllib.loads(text)
 
 
 def test_toml_with_carriage_returns_as_ends_of_lines_is_read() -> None:
@@ -111,6 +124,22 @@ def test_toml_with_carriage_returns_as_ends_of_lines_is_read() -> None:
 def test_a_toml_number_that_is_not_plain_is_refused_by_place(number: str, words: str) -> None:
     with pytest.raises(InputError, match=rf"mine\.toml, line 13, column 3 \(more\): {words}"):
         toml_content(f"{TOML}more = [\n  {number}, 1,\n]\n", "mine.toml")
+
+
+@pytest.mark.parametrize("number", ["1_0.0", "nan", "inf", "0x10", "1e999"])
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "[\n [NUMBER, 2.0]\n]",
+        "[\n [NUMBER]\n]",
+        "[\n  [NUMBER, 2] # last\n]",
+        "[ # rows\n[[1], [NUMBER]]]",
+        "[\n{a = [\n[NUMBER]\n]}\n]",
+    ],
+)
+def test_a_row_of_an_array_is_not_taken_for_the_head_of_a_table(rows: str, number: str) -> None:
+    with pytest.raises(InputError, match=rf"mine\.toml, line 1[3-5], column .*{number} ?”? is not a"):
+        toml_content(f"{TOML}more = {rows.replace('NUMBER', number)}\n", "mine.toml")
 
 
 @pytest.mark.parametrize(

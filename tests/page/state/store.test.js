@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { acceptView, checkGone, createStore, withJob } from "../../../app/static/state/store.js";
+import { acceptHello, acceptView, checkGone, createStore, withJob } from "../../../app/static/state/store.js";
 
 test("a check that no edit took away is not said to be gone by one", () => {
   const store = createStore({ selected: "walk" });
@@ -30,4 +30,21 @@ test("the newest job is the first one though the clock was set back, and stays i
     changed.map(({ id }) => id),
     ["c", "b", "a"],
   );
+});
+
+test("late answers are left out after a reconnection, and taken after another start of the studio", () => {
+  const store = createStore({ selected: "walk" });
+  const greeted = (start, stamp) => acceptHello(store, { start, gaits: [], jobs: [], robot: { stamp } });
+  const shownAfter = (stamp) => {
+    acceptView(store, { id: "walk", stamp });
+    return store.state.view.stamp;
+  };
+  greeted("a", 5);
+  assert.equal(shownAfter(7), 7);
+  greeted("a", 4);
+  assert.equal(store.state.robot.stamp, 5);
+  assert.equal(shownAfter(6), 7);
+  greeted("b", 1);
+  assert.equal(store.state.robot.stamp, 1);
+  assert.equal(shownAfter(2), 2);
 });

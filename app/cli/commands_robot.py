@@ -185,16 +185,15 @@ def _verdict(file: Path, model: RobotModel, waypoints: Waypoints) -> tuple[Verdi
     Returns:
         The verdict, and for each waypoint whether all feet are known to be down there.
     """
-    unknown = (False,) * waypoints.count
+    hold_ok = (False,) * waypoints.count
     if companion_path(file).exists():
         read = read_way_file(file, model.name)
         for assumption in read.assumptions:
             note(assumption)
         if read.motion is not None:
-            checked = checked_way(model, read.motion, read)
-            known = checked.way.hold_ok if checked.way is not None else unknown
-            return check_plan(checked), known
-    return check_waypoints(model, waypoints), unknown
+            return check_plan(checked_way(model, read.motion, read)), read.hold_ok
+        hold_ok = read.hold_ok
+    return check_waypoints(model, waypoints), hold_ok
 
 
 def _require_numbers(file: Path, verdict: Verdict) -> None:

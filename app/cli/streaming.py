@@ -13,11 +13,14 @@ import numpy as np
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.delivery import HELD_STOP
+from app.bridge.messages import away_sentence
 from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
 from app.bridge.stop_confirmation import STOP_LIMIT
+from app.bridge.telemetry import SILENCE_LIMIT
 from app.cli.common.keyboard import forget_typed, has_keyboard, has_typed_line
 from app.cli.common.output import note
 from app.cli.common.progress import end_line, is_watched, rewrite_line
+from app.common.clock import boot_seconds
 from app.common.signals import Interrupted, ignore_endings
 from app.emulator.emulated_robot import start_emulator
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
@@ -27,7 +30,7 @@ from app.store.database import Database
 from app.store.gait_files import require_folder
 from core.errors import RobotError, StateError
 from core.robot.model import RobotModel
-from core.running_time import Deadline
+from core.running_time import Deadline, RunningClock
 from core.wire.robot_time import move_estimates
 
 READY_SECONDS = 20.0
@@ -143,6 +146,8 @@ class Sending:
         self._by = plan.approval.by
         self._progress = progress
         self._changed = threading.Event()
+        self._running = RunningClock(boot_seconds)
+        self._away = 0.0
         kept.bridge.subscribe(lambda snapshot: self._changed.set())
 
     @property
@@ -151,6 +156,7 @@ class Sending:
 
     def run(self, device: str) -> RobotSnapshot:
         """Connects and sends; once more where the robot held a stop from before that is to be lifted."""
+        self._running.look()
         self._bridge.connect(device)
         note("The robot's line is open. Its board may restart; its motors may then move for about 8 s.")
         ended = self._send()
@@ -182,6 +188,9 @@ class Sending:
 
     def _send(self) -> RobotSnapshot:
         self._wait_ready()
+        if self._away > SILENCE_LIMIT:
+            away = away_sentence(self._away)
+            raise RobotError(f"{away} Nothing was sent. Look at the robot, then send again.", "--robot")
         self._bridge.arm(self._by)
         origin = replace(self._run.origin, run_id=secrets.token_hex(6))
         self._kept.send(self._plan, replace(self._run, origin=origin), self._by)
@@ -239,6 +248,7 @@ class Sending:
     def _step(self) -> None:
         self._changed.wait(0.1)
         self._changed.clear()
+        self._away = max(self._away, self._running.look())
 
 
 class Progress:

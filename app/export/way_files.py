@@ -40,6 +40,7 @@ class WayFile:
         motion: body, feet and contact at each waypoint; None where no companion says.
         assumptions: sentences on what was assumed.
         clipped: (count, legs, 3) how far strokes were clipped, m, each foot's largest; None where none were.
+        hold_ok: for each waypoint whether all feet are known to be down there, so that a pause may end at it.
     """
 
     model: RobotModel
@@ -47,6 +48,7 @@ class WayFile:
     motion: Trajectory | None
     assumptions: tuple[str, ...] = ()
     clipped: Floats | None = None
+    hold_ok: tuple[bool, ...] = ()
 
 
 def is_way_file(path: Path) -> bool:
@@ -82,9 +84,24 @@ def read_way_file(path: Path, robot: str | None = None) -> WayFile:
         if companion.motion is not None:
             require_same_strokes(model, companion.motion, waypoints, path.name)
         cut = clipped_from_content(companion.origin.get("clipped_mm", []), waypoints.strokes.shape)
-        return WayFile(model, waypoints, companion.motion, file.notes, cut)
+        down = _all_feet_down(companion, waypoints.count, path.name)
+        return WayFile(model, waypoints, companion.motion, file.notes, cut, down)
     assumptions = () if companion is None else (companion,)
-    return WayFile(model, waypoints, None, (*file.notes, *assumptions))
+    return WayFile(model, waypoints, None, (*file.notes, *assumptions), hold_ok=(False,) * waypoints.count)
+
+
+def _all_feet_down(companion: WaypointCompanion, count: int, name: str) -> tuple[bool, ...]:
+    if companion.motion is not None:
+        contact = companion.motion.contact
+        walking = contact.any(axis=0)
+        return tuple(bool(row.any() and row[walking].all()) for row in contact)
+    down = companion.origin.get("all_feet_down", [])
+    if not isinstance(down, list) or not all(type(i) is int and 0 <= i < count for i in down):
+        raise InputError(
+            f"all_feet_down in the companion of {name} must be numbers of waypoints, from 0 to {count - 1}.",
+            "all_feet_down",
+        )
+    return tuple(i in down for i in range(count))
 
 
 def checked_way(model: RobotModel, motion: Trajectory, file: WayFile) -> CheckedPlan:
@@ -116,7 +133,8 @@ def write_way(
     """
     text = format_waypoint_csv(way.waypoints)
     cut = None if clipped is None else clipped[list(way.kept)]
-    origin = {"trajectory": source, "clipped_mm": clipped_content(cut)}
+    down = [number for number, is_down in enumerate(way.hold_ok) if is_down]
+    origin = {"trajectory": source, "clipped_mm": clipped_content(cut), "all_feet_down": down}
     # Where waypoints were merged or cut, the motion at them is not that of a sample.
     is_whole = way.waypoints.count == motion.knot_count and not way.merge
     feet = walker_feet(model, way.waypoints.strokes, motion.pose(model)) if is_whole else None

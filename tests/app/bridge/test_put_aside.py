@@ -76,6 +76,23 @@ def test_a_sender_that_was_put_aside_is_done_or_pauses_and_stops(
         assert "paused: waypoint" in noted
 
 
+def test_a_sender_that_was_put_aside_before_its_run_sends_nothing(way: Path, tmp_path: Path) -> None:
+    with emulator_process(SPEED) as robot:
+        words = ("send", str(way), "--robot", robot, "--yes", "--data", str(tmp_path), "--json")
+        environment = {**os.environ, "LOGNAME": "Ada"}
+        with subprocess.Popen(
+            [*PROGRAM, *words], cwd=PROJECT, text=True, env=environment, stdout=-1, stderr=-1
+        ) as sender:
+            assert sender.stderr is not None
+            while "line is open" not in sender.stderr.readline():
+                assert sender.poll() is None
+            put_aside(sender.pid, AWAY[-1])
+            said, noted = sender.communicate(timeout=300)
+    assert sender.returncode == 5
+    assert "The program did not run for" in json.loads(said)["error"]
+    assert "moving" not in noted
+
+
 @pytest.mark.parametrize("seconds", AWAY)
 def test_a_studio_that_was_put_aside_is_done_or_pauses(tmp_path: Path, seconds: float) -> None:
     with emulator_process(SPEED) as robot, running_studio(tmp_path, "--robot", robot) as studio:

@@ -18,6 +18,7 @@ from core.problem.motion_problem import standing_pose
 from core.robot.model import load_robot
 from core.wire.waypoint_companion import WaypointCompanion, format_waypoint_companion
 from core.wire.waypoints import Waypoints, format_waypoint_csv
+from tests.support.command import run
 
 
 def written(folder: Path, robot: str) -> Path:
@@ -89,4 +90,34 @@ def test_a_companion_that_does_not_fit_is_left_aside_or_refused(tmp_path: Path) 
     feet[1, 0, 0] += 0.001
     beside.write_text(json.dumps({**content, "motion": {**content["motion"], "feet": feet.tolist()}}))
     with pytest.raises(InputError, match="differ by"):
+        read_way_file(path)
+
+
+@pytest.mark.parametrize("merge", [[], ["--merge", "0.001", "--stop-bound", "1"]])
+def test_the_companion_says_where_all_feet_are_down(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, merge: list[str]
+) -> None:
+    motion, path = str(tmp_path / "m.csv"), tmp_path / "way.csv"
+    assert run(capsys, "manual", "walk", "--version", "0", "-o", motion)[0] == 0
+    assert run(capsys, "waypoints", motion, *merge, "-o", str(path))[0] == 0
+    way = read_way_file(path)
+    assert len(way.hold_ok) == way.waypoints.count
+    assert way.hold_ok[0]
+    assert way.hold_ok[-1]
+    assert 1 < sum(way.hold_ok) < way.waypoints.count
+    companion_path(path).unlink()
+    assert not any(read_way_file(path).hold_ok)
+
+
+@pytest.mark.parametrize("down", ["all", [-1], [45, 1000], [0.0], [True], {"0": True}])
+def test_wrong_numbers_of_waypoints_are_refused(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, down: object
+) -> None:
+    motion, path = str(tmp_path / "m.csv"), tmp_path / "way.csv"
+    assert run(capsys, "manual", "walk", "--version", "0", "-o", motion)[0] == 0
+    assert run(capsys, "waypoints", motion, "--merge", "0.001", "-o", str(path))[0] == 0
+    content = json.loads(companion_path(path).read_text())
+    content["origin"]["all_feet_down"] = down
+    companion_path(path).write_text(json.dumps(content))
+    with pytest.raises(InputError, match="all_feet_down"):
         read_way_file(path)

@@ -237,8 +237,10 @@ def test_the_robots_log_keeps_the_times_that_it_had(step: float, clock: SetClock
     clock.pass_seconds(5.0)
     clock.step(step)
     changes.append(Transition(clock.boot() - 1.0, LinkState.READY, RobotState.ARMED, "Armed.", 2))
-    assert times.of(changes) == [first, clock.wall() - 1.0]
-    assert times.of(changes[1:]) == [clock.wall() - 1.0]
+    assert times.of(changes) == pytest.approx([first, first + 4.0])
+    assert times.of(changes[1:]) == pytest.approx([first + 4.0])
+    changes.append(Transition(clock.boot(), LinkState.CONNECTING, RobotState.UNKNOWN, "Opened.", 3))
+    assert times.of(changes)[-1] == pytest.approx(clock.wall())
 
 
 class BridgeWithTest:

@@ -12,6 +12,8 @@ from multiprocessing.process import BaseProcess
 from types import ModuleType
 from typing import Any
 
+from core.text.printable import printable_stream
+
 NICENESS = 5
 """How far a solver stands back where cores are scarce, so that a stop of the robot never waits for one."""
 
@@ -81,4 +83,6 @@ def _stand_back(
     if niceness == IDLE_NICENESS and hasattr(os, "SCHED_IDLE"):
         with suppress(OSError):  # some containers forbid it; the niceness holds anyway
             os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
+    if sys.stderr is not None:
+        sys.stderr = printable_stream(sys.stderr)  # a traceback may hold any name
     body(pipe, warm_up)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
+from multiprocessing.connection import Connection
+from typing import Any
 
 import pytest
 
 from solver_jobs import BatchSimulator, ChunkWorker, JobQueue, LiveSolver, PatternSolver, Simulator
-from solver_jobs.workers.spawning import BACKGROUND_NICENESS, IDLE_NICENESS, NICENESS
+from solver_jobs.workers.spawning import BACKGROUND_NICENESS, IDLE_NICENESS, NICENESS, start_process
 
 PATIENCE = 60.0
 """Longest wait for a process, s."""
@@ -74,3 +76,21 @@ def test_an_idle_worker_of_an_atlas_runs_only_while_a_core_is_free(
         assert os.sched_getscheduler(worker.process_id) == policy
     finally:
         worker.close()
+
+
+def break_off(pipe: Connection, name: Any) -> None:
+    del pipe
+    raise ValueError(f"no gait {name}")
+
+
+@pytest.mark.parametrize("name", ["\x1b[2Jwalk", "walk\x07", "\x9b31m", "a\u202egpj"])
+def test_what_a_worker_says_at_its_end_controls_no_terminal(
+    capfd: pytest.CaptureFixture[str], name: str
+) -> None:
+    process, pipe = start_process(break_off, name, "breaking off")
+    process.join(PATIENCE)
+    pipe.close()
+    said = capfd.readouterr().err
+    assert "ValueError: no gait " in said
+    assert name not in said
+    assert not {"\x1b", "\x07", "\x9b", "\u202e"} & set(said)

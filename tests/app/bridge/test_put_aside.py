@@ -95,7 +95,10 @@ def test_a_sender_that_was_put_aside_before_its_run_sends_nothing(way: Path, tmp
 
 @pytest.mark.parametrize("seconds", AWAY)
 def test_a_studio_that_was_put_aside_is_done_or_pauses(tmp_path: Path, seconds: float) -> None:
-    with emulator_process(SPEED) as robot, running_studio(tmp_path, "--robot", robot) as studio:
+    with (
+        emulator_process(SPEED) as robot,
+        running_studio(tmp_path, "--robot", robot, program=PROGRAM) as studio,
+    ):
 
         def act(verb: str, **content: Any) -> None:
             answer = studio.ask("POST", f"/api/robot/{verb}", content)

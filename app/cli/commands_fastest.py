@@ -25,7 +25,7 @@ from app.common.json import Json
 from app.documents.gait_json import gait_content
 from app.export.way_files import write_pose_gait
 from app.fastest.search import Searched, chosen_gait, search_content, searched
-from app.store.named_file import form_of, write_named
+from app.store.named_file import file_path, form_of, write_named
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
 from core.gait.poses import MOST_SWAY, POSE_LIMITS, Poses
@@ -118,7 +118,7 @@ def fastest_command(parser: ArgumentParser) -> None:
         add(option, type=number(least, most, unit), default=getattr(bounds, name), metavar=factor, help=words)
     add("--direction", type=whole(1, 4), default=None, help="1 to 4 (default the gait's own)")
     add_robot(parser, "default the gait's own; with other legs in one of its orders")
-    add("-o", "--output", type=Path, default=None, help="WAY.csv with a companion, or GAIT.json")
+    add("-o", "--output", type=file_path, default=None, help="WAY.csv with a companion, or GAIT.json")
 
 
 def run_fastest(options: Namespace) -> int:

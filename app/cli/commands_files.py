@@ -30,7 +30,7 @@ from app.plans.make_plan import make_plan
 from app.plans.plan import Plan
 from app.plans.sequence_plan import sequence_plan
 from app.store.gait_files import GaitFiles, default_data_folder
-from app.store.named_file import is_plain, write_named
+from app.store.named_file import file_path, is_plain, write_named
 from core.arrays import Floats
 from core.errors import InputError
 from core.gait.gait import Gait
@@ -63,7 +63,7 @@ def export_command(parser: ArgumentParser) -> None:
         help="what makes the plan of a gait, as for optimise (default nlp)",
     )
     add("--data", type=Path, default=None, help="data folder")
-    add("-o", "--output", type=Path, default=None, help="file to write")
+    add("-o", "--output", type=file_path, default=None, help="file to write")
 
 
 def run_export(options: Namespace) -> int:
@@ -171,7 +171,7 @@ def import_command(parser: ArgumentParser) -> None:
     add("--robot", default=None, help="robot of the motion (default the first one with as many feet)")
     add_within_stroke(parser)
     add("--sample-time", type=number(0.001, 60.0, "s"), default=None, help="of a phase list, s")
-    add("-o", "--output", type=Path, default=None, help="gait file to write")
+    add("-o", "--output", type=file_path, default=None, help="gait file to write")
 
 
 def run_import(options: Namespace) -> int:

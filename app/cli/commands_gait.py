@@ -19,6 +19,7 @@ from app.export.trajectory_files import write_trajectory
 from app.gaits.views import times_view
 from app.plans.verified_result import VerifiedResult, verify
 from app.store.gait_files import GaitFiles, default_data_folder
+from app.store.named_file import file_path
 from app.store.times_store import read_times
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step, motion_problem
@@ -125,7 +126,7 @@ def manual_command(parser: ArgumentParser) -> None:
     add("--iterations", type=whole(1, 20), default=1)
     add("--segment-samples", type=whole(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS), default=5)
     add_robot(parser, "default deltawalker")
-    add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
+    add("-o", "--output", type=file_path, default=None, help="trajectory CSV to write")
 
 
 def run_manual(options: Namespace) -> int:

@@ -15,6 +15,7 @@ from app.export.trajectory_files import read_trajectory
 from app.export.way_files import checked_way, is_way_file, read_way_file, write_way
 from app.gaits.verdict_views import verdict_view
 from app.simulation.physics_check import checked_in_physics
+from app.store.named_file import file_path
 from core.arrays import Floats
 from core.checks.beyond_range import beyond_range_plan
 from core.checks.checked_plan import Beyond, CheckedPlan, checked_plan
@@ -39,7 +40,7 @@ def waypoints_command(parser: ArgumentParser) -> None:
     add_robot(parser, "default deltawalker")
     add_way_options(parser)
     add_within_stroke(parser)
-    add("-o", "--output", type=Path, default=None, help="waypoint CSV to write")
+    add("-o", "--output", type=file_path, default=None, help="waypoint CSV to write")
 
 
 def add_way_options(parser: ArgumentParser) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from app.cli.common.argument_types import add_robot, foot_order, number, one_of, pair, whole, words_of
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text
+from app.store.named_file import file_path
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline, heading_step, with_iterations, with_return
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS, GaitOptions
@@ -87,7 +88,7 @@ def add_gait_options(parser: ArgumentParser) -> None:
         default=Method.NLP,
         help="live: convex, given footholds and heights; nlp: exact (default)",
     )
-    add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
+    add("-o", "--output", type=file_path, default=None, help="trajectory CSV to write")
 
 
 def _limit_options(parser: ArgumentParser) -> None:

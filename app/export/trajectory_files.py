@@ -49,8 +49,7 @@ def write_with_companion(path: Path, content: str | bytes, companion: str | byte
 
     What is no plain file, such as /dev/stdout or a pipe, has no place beside it, and gets no companion.
     """
-    beside = companion_path(path)
-    write_named(path, content, lambda: write_named(beside, companion))
+    write_named(path, content, lambda: write_named(companion_path(path), companion))
 
 
 def read_trajectory(path: Path) -> TrajectoryFile:

@@ -63,6 +63,22 @@ def _encoded(text: str, path: Path) -> bytes:
         ) from error
 
 
+def file_path(text: str | os.PathLike[str]) -> Path:
+    """The path of a file that is to be written.
+
+    Raises:
+        InputError: it names a folder, also one that does not exist yet, as `results/` does.
+    """
+    path = Path(text)
+    if os.path.basename(text) in ("", os.curdir, os.pardir) or path.is_dir():
+        raise _is_folder(os.fspath(text) or os.curdir)
+    return path
+
+
+def _is_folder(name: str) -> InputError:
+    return InputError(f"{name} is a folder. Name a file in it.", name)
+
+
 def is_plain(path: Path) -> bool:
     """Whether a plain file stands there, or nothing yet, so that it may have a companion beside it."""
     try:
@@ -131,7 +147,7 @@ def _require_writable(path: Path, state: os.stat_result) -> None:
         InputError: it does not.
     """
     if stat.S_ISDIR(state.st_mode):
-        raise InputError(f"{path} is a folder. Name a file in it.", str(path))
+        raise _is_folder(str(path))
     if stat.S_ISSOCK(state.st_mode):
         raise InputError(f"{path} is a socket, into which no file can be written.", str(path))
 

@@ -27,6 +27,9 @@ def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def words_of(command: str, motion: Path) -> tuple[str, ...]:
     return {
         "manual": ("manual", "walk"),
+        "optimise": ("optimise", "walk"),
+        "frontier": ("frontier", "walk"),
+        "fastest": ("fastest", "walk"),
         "waypoints": ("waypoints", str(motion)),
         "export": ("export", str(motion), "--format", "csv"),
         "import": ("import", str(motion)),
@@ -60,6 +63,31 @@ def test_a_full_device_is_exit_2(capsys: pytest.CaptureFixture[str], motion: Pat
     status, out, err = run(capsys, *words_of(command, motion), "-o", "/dev/full")
     assert (status, out) == (2, "")
     assert "/dev/full cannot be written: No space left on device." in err
+
+
+@pytest.mark.parametrize("output", ["", ".", "./", "..", "/", "new/", "new/.", "old.csv/", "folder"])
+@pytest.mark.parametrize(
+    "command",
+    ["manual", "optimise", "frontier", "fastest", "waypoints", "export", "import", "atlas export"],
+)
+def test_a_folder_is_exit_2_before_anything_is_computed(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    motion: Path,
+    command: str,
+    output: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("folder").mkdir()
+    Path("old.csv").write_text("old")
+    assert run(capsys, *words_of(command, motion), "-o", output) == (
+        2,
+        "",
+        f"{output or '.'} is a folder. Name a file in it.\n",
+    )
+    assert sorted(entry.name for entry in Path().iterdir()) == ["folder", "old.csv"]
+    assert Path("old.csv").read_text() == "old"
 
 
 def test_a_link_and_its_companion(capsys: pytest.CaptureFixture[str], tmp_path: Path, motion: Path) -> None:
@@ -118,6 +146,7 @@ def test_python_saves_by_the_same_rules(tmp_path: Path, motion: Path) -> None:
     names = sorted(entry.name for entry in tmp_path.iterdir())
     assert names == ["null.csv", "null.waypoints.csv", "target.json", "walk.json"]
     (tmp_path / "folder.csv").mkdir()
-    with pytest.raises(footfall.InputError, match="is a folder"):
-        plan.save(tmp_path / "folder.csv")
+    for path in (tmp_path / "folder.csv", f"{tmp_path}/new.csv/"):
+        with pytest.raises(footfall.InputError, match="is a folder"):
+            plan.save(path)
     assert stat.S_ISCHR(os.stat(os.devnull).st_mode)

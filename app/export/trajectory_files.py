@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from app.store.named_file import write_named
+from app.store.named_file import file_path, write_named
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.motion.trajectory_npz import MotionFile, parse_npz
@@ -45,11 +45,12 @@ def companion_path(path: Path) -> Path:
 
 
 def write_with_companion(path: Path, content: str | bytes, companion: str | bytes) -> None:
-    """Writes a file that a person names, and beside a plain one its companion, each whole or not at all.
+    """Writes a file that a person names, and beside a plain one its companion: both whole, or none.
 
     What is no plain file, such as /dev/stdout or a pipe, has no place beside it, and gets no companion.
     """
-    write_named(path, content, lambda: write_named(companion_path(path), companion))
+    path = file_path(path)
+    write_named(path, content, companion_path(path), companion)
 
 
 def read_trajectory(path: Path) -> TrajectoryFile:

@@ -24,6 +24,7 @@ from app.export.trajectory_files import (
     companion_path,
     read_text,
     read_whole_text,
+    require_unread,
     write_with_companion,
 )
 from app.plans.make_plan import make_plan
@@ -70,6 +71,8 @@ def run_export(options: Namespace) -> int:
     """Writes a gait or a recorded motion in another form."""
     end_on_signals()
     form: ExportFormat = options.format
+    path = Path(options.source)
+    require_unread(options.output, path if path.suffix else None, has_companion=form is ExportFormat.CSV)
     source = _source(options)
     file = export(source, form)
     output: Path | None = options.output
@@ -176,6 +179,7 @@ def import_command(parser: ArgumentParser) -> None:
 
 def run_import(options: Namespace) -> int:
     """Makes a gait document from a trajectory, waypoints, a phase list or another gait document."""
+    require_unread(options.output, options.file)
     described = imported_gait(options)
     content = gait_content(described.gait)
     for remark in described.remarks:

@@ -12,10 +12,10 @@ from pathlib import Path
 from app.cli.common.argument_types import add_robot, number, whole
 from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show, written_lines
-from app.cli.gait_options import SOLVERS, Method, add_gait_options, asked_gait
+from app.cli.gait_options import SOLVERS, Method, add_gait_options, asked_gait, gait_file
 from app.common.json import Json
 from app.documents.gait_json import gait_schema, sent_hash
-from app.export.trajectory_files import write_trajectory
+from app.export.trajectory_files import require_unread, write_trajectory
 from app.gaits.views import times_view
 from app.plans.verified_result import VerifiedResult, verify
 from app.store.gait_files import GaitFiles, default_data_folder
@@ -193,6 +193,7 @@ def optimise_command(parser: ArgumentParser) -> None:
 def run_optimise(options: Namespace) -> int:
     """Optimises a gait and writes its trajectory."""
     end_on_signals()
+    require_unread(options.output, gait_file(options.gait), has_companion=True)
     gait = asked_gait(options)
     if options.remedy is not None:
         gait = _mended(gait, options.remedy)

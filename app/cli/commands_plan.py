@@ -11,7 +11,7 @@ from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, NOT_FIT, note, show, show_file, verdict_lines, written_lines
 from app.cli.common.within_stroke import OPTION, add_within_stroke, kept_within
 from app.common.clipped import clipped_content
-from app.export.trajectory_files import read_trajectory
+from app.export.trajectory_files import read_trajectory, require_unread
 from app.export.way_files import checked_way, is_way_file, read_way_file, write_way
 from app.gaits.verdict_views import verdict_view
 from app.simulation.physics_check import checked_in_physics
@@ -54,6 +54,7 @@ def add_way_options(parser: ArgumentParser) -> None:
 
 def run_waypoints(options: Namespace) -> int:
     """Inverse kinematics of a trajectory file."""
+    require_unread(options.output, options.file, has_companion=True)
     read = read_trajectory(options.file)
     for assumption in read.assumptions:
         note(assumption)

@@ -147,8 +147,8 @@ def gait_with_options(gait: Gait, options: Namespace) -> Gait:
 
 def named_gait(name: str) -> Gait:
     """A built-in gait with the command's own defaults, or one from a file with its options."""
-    path = Path(name)
-    if name in library() or (path.suffix != ".json" and not path.exists()):
+    path = gait_file(name)
+    if path is None:
         gait = optimised_entry(name).gait
         return gait.with_options(margin=load_robot(gait.robot).margin, cost=GaitOptions.cost)
     gait = parse_gait(read_text(path), path.name)
@@ -157,6 +157,14 @@ def named_gait(name: str) -> Gait:
             f"{path.name} is made by hand from a segment table; there is nothing to optimise.", name
         )
     return gait
+
+
+def gait_file(name: str | None) -> Path | None:
+    """The file that a gait is read from; None for a built-in one."""
+    if name is None or name in library():
+        return None
+    path = Path(name)
+    return path if path.suffix == ".json" or path.exists() else None
 
 
 def _with_options(gait: Gait, options: Namespace) -> Gait:

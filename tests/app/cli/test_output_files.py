@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import stat
 import subprocess
 import sys
@@ -88,6 +89,58 @@ def test_a_folder_is_exit_2_before_anything_is_computed(
     )
     assert sorted(entry.name for entry in Path().iterdir()) == ["folder", "old.csv"]
     assert Path("old.csv").read_text() == "old"
+
+
+@pytest.mark.parametrize(
+    ("words", "output", "said"),
+    [
+        ("optimise gait.json", "gait.json", "gait.json"),
+        ("frontier gait.json", "link.json", "link.json"),
+        ("fastest gait.json", "gait.json", "gait.json"),
+        ("fastest gait.json", "hard.json", "hard.json"),
+        ("optimise gait.footfall.json", "gait.csv", "gait.footfall.json (companion of gait.csv)"),
+        ("export gait.json --format json", "./gait.json", "gait.json"),
+        ("waypoints walk.csv", "walk.csv", "walk.csv"),
+        ("waypoints walk.csv", "sub/../walk.csv", "sub/../walk.csv"),
+        ("waypoints walk.csv", "walk.txt", "walk.footfall.json (companion of walk.txt)"),
+        ("waypoints walk.csv", "walk.footfall.json", "walk.footfall.json"),
+        ("export walk.csv --format csv", "walk.csv", "walk.csv"),
+        ("import walk.csv", "walk.csv", "walk.csv"),
+        ("import walk.csv", "walk.footfall.json", "walk.footfall.json"),
+        ("atlas export atlas.csv", "atlas.csv", "atlas.csv"),
+        ("atlas open atlas.json 1", "atlas.json", "atlas.json"),
+    ],
+)
+def test_the_file_that_is_read_is_not_written_over(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    words: str,
+    output: str,
+    said: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("sub").mkdir()
+    footfall.plan("walk-manual-0").save("walk.csv")
+    footfall.gait("walk").save("gait.json")
+    shutil.copy("gait.json", "gait.footfall.json")
+    Path("link.json").symlink_to("gait.json")
+    Path("hard.json").hardlink_to("gait.json")
+    for name in ("atlas.csv", "atlas.json"):
+        Path(name).touch()
+    before = {path.name: path.read_bytes() for path in Path().iterdir() if path.is_file()}
+    status, out, err = run(capsys, *words.split(), "-o", output)
+    assert (status, out, err) == (2, "", f"{said} is the file that is read; choose another name.\n")
+    assert {path.name: path.read_bytes() for path in Path().iterdir() if path.is_file()} == before
+
+
+@pytest.mark.parametrize("words", ["import walk.csv", "export walk.csv --format json"])
+def test_a_gait_file_beside_a_companion_is_written(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    footfall.plan("walk-manual-0").save("walk.csv")
+    assert run(capsys, *words.split(), "-o", "walk.json")[0] == 0
 
 
 def test_a_link_and_its_companion(capsys: pytest.CaptureFixture[str], tmp_path: Path, motion: Path) -> None:

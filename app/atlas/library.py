@@ -13,8 +13,6 @@ from core.atlas.row import RowStatus
 from core.atlas.space import AtlasSpace, default_space
 from core.errors import FootfallError, InputError, NotFoundError, StateError
 
-FOLDER = "atlases"
-"""Where in the data folder they are."""
 SUFFIX, DELETED = ".sqlite", ".deleted"
 MOST_NAME = 60
 _NAME = re.compile(rf"[A-Za-z0-9][A-Za-z0-9 _.-]{{0,{MOST_NAME - 1}}}")

@@ -10,6 +10,7 @@ from app.bench.solvers.edits import COUNT as EDITS
 from app.bench.solvers.edits import SEED
 from app.bench.solvers.fastest_grid import MARGINS, STEPS, STOP_BOUNDS, Grid
 from app.cli.common.argument_types import foot_order, free_or, listed, number, whole
+from app.store.named_file import file_path
 from core.errors import InputError
 from core.library.library import Group, library
 from core.pose_gaits.pose_problem import POSE_BOUNDS
@@ -39,7 +40,7 @@ def add_bench_options(parser: argparse.ArgumentParser) -> None:
         "file to write: HTML page with plots (physics), or picture with its data beside it (moves, which has "
         "to be named)"
     )
-    add("--report", type=Path, default=None, help=text)
+    add("--report", type=file_path, default=None, help=text)
     add("--markdown", action="store_true", help="print tables as Markdown")
     text = (
         "search a grid of orders, steps, margins and stop bounds in mid-walk instead of the walks (fastest)"

@@ -159,7 +159,7 @@ def _port(options: Namespace, address: str | None) -> Diagnosis:
     try:
         listen(options.host, options.port or PORT).close()
     except FootfallError as refusal:
-        state = State.WARNING if options.port is None else State.ERROR
+        state = State.WARNING if options.port is None and refusal.where == "--port" else State.ERROR
         return Diagnosis("studio", state, f"not running. {refusal.sentence}")
     return Diagnosis("studio", State.OK, f"not running; port {options.port or PORT} is free.")
 

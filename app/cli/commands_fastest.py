@@ -20,12 +20,13 @@ from app.cli.common.output import (
 )
 from app.cli.common.progress import clear_line, rewrite_line
 from app.cli.fastest_search import search_lines, show_progress
-from app.cli.gait_options import named_gait
+from app.cli.gait_options import gait_file, named_gait
 from app.common.json import Json
 from app.documents.gait_json import gait_content
+from app.export.trajectory_files import require_unread
 from app.export.way_files import write_pose_gait
 from app.fastest.search import Searched, chosen_gait, search_content, searched
-from app.store.named_file import form_of, write_named
+from app.store.named_file import file_path, form_of, write_named
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
 from core.gait.poses import MOST_SWAY, POSE_LIMITS, Poses
@@ -118,19 +119,20 @@ def fastest_command(parser: ArgumentParser) -> None:
         add(option, type=number(least, most, unit), default=getattr(bounds, name), metavar=factor, help=words)
     add("--direction", type=whole(1, 4), default=None, help="1 to 4 (default the gait's own)")
     add_robot(parser, "default the gait's own; with other legs in one of its orders")
-    add("-o", "--output", type=Path, default=None, help="WAY.csv with a companion, or GAIT.json")
+    add("-o", "--output", type=file_path, default=None, help="WAY.csv with a companion, or GAIT.json")
 
 
 def run_fastest(options: Namespace) -> int:
     """Finds the walk with the most millimetres a robot second, and writes its waypoints."""
     end_on_signals()
-    name, document = fastest_document(options)
     form = None if options.output is None else form_of(options.output, (".csv", ".json"))
     if options.output is not None and form is None:
         raise InputError(
             f"{options.output} is neither a waypoint file nor a gait file; end its name in .csv or .json.",
             "-o",
         )
+    require_unread(options.output, gait_file(options.gait), has_companion=form == ".csv")
+    name, document = fastest_document(options)
     document, walk, found = fastest_walk(options, name, document)
     problem = pose_problem(document, load_robot(document.robot))
     written: Path | None = None

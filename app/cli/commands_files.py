@@ -24,13 +24,14 @@ from app.export.trajectory_files import (
     companion_path,
     read_text,
     read_whole_text,
+    require_unread,
     write_with_companion,
 )
 from app.plans.make_plan import make_plan
 from app.plans.plan import Plan
 from app.plans.sequence_plan import sequence_plan
 from app.store.gait_files import GaitFiles, default_data_folder
-from app.store.named_file import is_plain, write_named
+from app.store.named_file import file_path, is_plain, write_named
 from core.arrays import Floats
 from core.errors import InputError
 from core.gait.gait import Gait
@@ -63,13 +64,15 @@ def export_command(parser: ArgumentParser) -> None:
         help="what makes the plan of a gait, as for optimise (default nlp)",
     )
     add("--data", type=Path, default=None, help="data folder")
-    add("-o", "--output", type=Path, default=None, help="file to write")
+    add("-o", "--output", type=file_path, default=None, help="file to write")
 
 
 def run_export(options: Namespace) -> int:
     """Writes a gait or a recorded motion in another form."""
     end_on_signals()
     form: ExportFormat = options.format
+    path = Path(options.source)
+    require_unread(options.output, path if path.suffix else None, has_companion=form is ExportFormat.CSV)
     source = _source(options)
     file = export(source, form)
     output: Path | None = options.output
@@ -171,11 +174,12 @@ def import_command(parser: ArgumentParser) -> None:
     add("--robot", default=None, help="robot of the motion (default the first one with as many feet)")
     add_within_stroke(parser)
     add("--sample-time", type=number(0.001, 60.0, "s"), default=None, help="of a phase list, s")
-    add("-o", "--output", type=Path, default=None, help="gait file to write")
+    add("-o", "--output", type=file_path, default=None, help="gait file to write")
 
 
 def run_import(options: Namespace) -> int:
     """Makes a gait document from a trajectory, waypoints, a phase list or another gait document."""
+    require_unread(options.output, options.file)
     described = imported_gait(options)
     content = gait_content(described.gait)
     for remark in described.remarks:

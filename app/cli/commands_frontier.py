@@ -7,9 +7,9 @@ import numpy as np
 
 from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, end_on_signals, show, written_lines
-from app.cli.gait_options import Method, add_gait_options, asked_gait, returns_anew
+from app.cli.gait_options import Method, add_gait_options, asked_gait, gait_file, returns_anew
 from app.common.json import Json
-from app.export.trajectory_files import write_trajectory
+from app.export.trajectory_files import require_unread, write_trajectory
 from core.checks.made_plan import RULE
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline
@@ -28,6 +28,7 @@ def frontier_command(parser: ArgumentParser) -> None:
 def run_frontier(options: Namespace) -> int:
     """Finds how far a gait gets in an iteration, and what limits it."""
     end_on_signals()
+    require_unread(options.output, gait_file(options.gait), has_companion=True)
     gait = asked_gait(options)
     begin = time.perf_counter()
     frontier = frontier_search(gait, options).run()

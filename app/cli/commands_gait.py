@@ -12,13 +12,14 @@ from pathlib import Path
 from app.cli.common.argument_types import add_robot, number, whole
 from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show, written_lines
-from app.cli.gait_options import SOLVERS, Method, add_gait_options, asked_gait
+from app.cli.gait_options import SOLVERS, Method, add_gait_options, asked_gait, gait_file
 from app.common.json import Json
 from app.documents.gait_json import gait_schema, sent_hash
-from app.export.trajectory_files import write_trajectory
+from app.export.trajectory_files import require_unread, write_trajectory
 from app.gaits.views import times_view
 from app.plans.verified_result import VerifiedResult, verify
 from app.store.gait_files import GaitFiles, default_data_folder
+from app.store.named_file import file_path
 from app.store.times_store import read_times
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step, motion_problem
@@ -125,7 +126,7 @@ def manual_command(parser: ArgumentParser) -> None:
     add("--iterations", type=whole(1, 20), default=1)
     add("--segment-samples", type=whole(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS), default=5)
     add_robot(parser, "default deltawalker")
-    add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
+    add("-o", "--output", type=file_path, default=None, help="trajectory CSV to write")
 
 
 def run_manual(options: Namespace) -> int:
@@ -192,6 +193,7 @@ def optimise_command(parser: ArgumentParser) -> None:
 def run_optimise(options: Namespace) -> int:
     """Optimises a gait and writes its trajectory."""
     end_on_signals()
+    require_unread(options.output, gait_file(options.gait), has_companion=True)
     gait = asked_gait(options)
     if options.remedy is not None:
         gait = _mended(gait, options.remedy)

@@ -11,10 +11,11 @@ from app.cli.common.command import set_command
 from app.cli.common.output import INFEASIBLE, NOT_FIT, note, show, show_file, verdict_lines, written_lines
 from app.cli.common.within_stroke import OPTION, add_within_stroke, kept_within
 from app.common.clipped import clipped_content
-from app.export.trajectory_files import read_trajectory
+from app.export.trajectory_files import read_trajectory, require_unread
 from app.export.way_files import checked_way, is_way_file, read_way_file, write_way
 from app.gaits.verdict_views import verdict_view
 from app.simulation.physics_check import checked_in_physics
+from app.store.named_file import file_path
 from core.arrays import Floats
 from core.checks.beyond_range import beyond_range_plan
 from core.checks.checked_plan import Beyond, CheckedPlan, checked_plan
@@ -39,7 +40,7 @@ def waypoints_command(parser: ArgumentParser) -> None:
     add_robot(parser, "default deltawalker")
     add_way_options(parser)
     add_within_stroke(parser)
-    add("-o", "--output", type=Path, default=None, help="waypoint CSV to write")
+    add("-o", "--output", type=file_path, default=None, help="waypoint CSV to write")
 
 
 def add_way_options(parser: ArgumentParser) -> None:
@@ -53,6 +54,7 @@ def add_way_options(parser: ArgumentParser) -> None:
 
 def run_waypoints(options: Namespace) -> int:
     """Inverse kinematics of a trajectory file."""
+    require_unread(options.output, options.file, has_companion=True)
     read = read_trajectory(options.file)
     for assumption in read.assumptions:
         note(assumption)

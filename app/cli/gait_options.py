@@ -12,6 +12,7 @@ import numpy as np
 from app.cli.common.argument_types import add_robot, foot_order, number, one_of, pair, whole, words_of
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text
+from app.store.named_file import file_path
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline, heading_step, with_iterations, with_return
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS, GaitOptions
@@ -87,7 +88,7 @@ def add_gait_options(parser: ArgumentParser) -> None:
         default=Method.NLP,
         help="live: convex, given footholds and heights; nlp: exact (default)",
     )
-    add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
+    add("-o", "--output", type=file_path, default=None, help="trajectory CSV to write")
 
 
 def _limit_options(parser: ArgumentParser) -> None:
@@ -146,8 +147,8 @@ def gait_with_options(gait: Gait, options: Namespace) -> Gait:
 
 def named_gait(name: str) -> Gait:
     """A built-in gait with the command's own defaults, or one from a file with its options."""
-    path = Path(name)
-    if name in library() or (path.suffix != ".json" and not path.exists()):
+    path = gait_file(name)
+    if path is None:
         gait = optimised_entry(name).gait
         return gait.with_options(margin=load_robot(gait.robot).margin, cost=GaitOptions.cost)
     gait = parse_gait(read_text(path), path.name)
@@ -156,6 +157,14 @@ def named_gait(name: str) -> Gait:
             f"{path.name} is made by hand from a segment table; there is nothing to optimise.", name
         )
     return gait
+
+
+def gait_file(name: str | None) -> Path | None:
+    """The file that a gait is read from; None for a built-in one."""
+    if name is None or name in library():
+        return None
+    path = Path(name)
+    return path if path.suffix == ".json" or path.exists() else None
 
 
 def _with_options(gait: Gait, options: Namespace) -> Gait:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from app.store.named_file import write_named
+from app.store.named_file import file_path, is_plain, write_named
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.motion.trajectory_npz import MotionFile, parse_npz
@@ -44,13 +44,44 @@ def companion_path(path: Path) -> Path:
     return path.with_name(path.stem + COMPANION_SUFFIX)
 
 
+def require_unread(output: Path | None, read: Path | None, *, has_companion: bool = False) -> None:
+    """Makes sure that a command does not write over what it reads, under whatever name.
+
+    Args:
+        output: file to write; None for none.
+        read: file that is read, with its companion; None for none.
+        has_companion: whether a companion is written too.
+
+    Raises:
+        InputError: it would.
+    """
+    if output is None or read is None:
+        return
+    output = file_path(output)
+    is_recorded = read.suffix not in (".json", ".npz")
+    for source in (read, companion_path(read)) if is_recorded and read.name else (read,):
+        for written in (output, companion_path(output)) if has_companion else (output,):
+            if _is_same_file(written, source):
+                which = "" if written is output else f" (companion of {output})"
+                raise InputError(
+                    f"{written}{which} is the file that is read; choose another name.", str(written)
+                )
+
+
+def _is_same_file(one: Path, other: Path) -> bool:
+    try:
+        return is_plain(one) and one.samefile(other)
+    except OSError:  # one of them is not there; reading and writing say more
+        return False
+
+
 def write_with_companion(path: Path, content: str | bytes, companion: str | bytes) -> None:
-    """Writes a file that a person names, and beside a plain one its companion, each whole or not at all.
+    """Writes a file that a person names, and beside a plain one its companion: both whole, or none.
 
     What is no plain file, such as /dev/stdout or a pipe, has no place beside it, and gets no companion.
     """
-    beside = companion_path(path)
-    write_named(path, content, lambda: write_named(beside, companion))
+    path = file_path(path)
+    write_named(path, content, companion_path(path), companion)
 
 
 def read_trajectory(path: Path) -> TrajectoryFile:

@@ -20,7 +20,7 @@ from app.export.svg import svg
 from app.scripting.html import table
 from app.scripting.options import command_options
 from app.store.gait_files import GaitFiles, default_data_folder
-from app.store.named_file import write_named
+from app.store.named_file import file_path, write_named
 from core.arrays import Bools, Floats
 from core.errors import InputError, NotFoundError
 from core.gait.gait import Gait as Document
@@ -134,7 +134,7 @@ class Gait:
             >>> ff.gait("walk").save(f"{tempfile.mkdtemp()}/walk.json").name
             'walk.json'
         """
-        file = Path(path)
+        file = file_path(path)
         form = ExportFormat.PHASES if file.name.endswith(_PHASES) else _FORMS.get(file.suffix)
         if form is None:
             known = ", ".join((*_FORMS, _PHASES))

@@ -19,7 +19,7 @@ from app.scripting.gaits import Gait
 from app.scripting.html import Cell, paragraph, table
 from app.scripting.plots import motion_figure
 from app.scripting.robots import Robot
-from app.store.named_file import write_named
+from app.store.named_file import file_path, write_named
 from core.arrays import Bools, Floats
 from core.errors import CheckError, InfeasibleError, InputError
 from core.motion.trajectory import Trajectory
@@ -166,7 +166,7 @@ class Plan:
             >>> ff.plan("walk-manual-0").save(f"{tempfile.mkdtemp()}/walk.waypoints.csv").name
             'walk.waypoints.csv'
         """
-        file = Path(path)
+        file = file_path(path)
         if file.name.endswith(".waypoints.csv"):
             self._save_waypoints(file)
         elif file.suffix == ".csv":

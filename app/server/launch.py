@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import errno
 import os
 import secrets
 import socket
@@ -109,15 +110,33 @@ def listen(host: str, port: int) -> socket.socket:
     try:
         listening.bind((host, port))
         listening.listen()
-    except (OSError, OverflowError) as error:
+    except (OSError, OverflowError, UnicodeError) as error:
         listening.close()
-        reason = error.strerror if isinstance(error, OSError) else "the number is out of range"
-        raise InputError(
-            f"Port {port} on {host} cannot be used: {reason}. End the program that uses it, or choose "
-            "another with --port.",
-            "--port",
-        ) from error
+        raise _unusable(host, port, error) from error
     return listening
+
+
+def _unusable(host: str, port: int, error: Exception) -> InputError:
+    """Why the studio cannot listen, and what to do about it."""
+    if isinstance(error, socket.gaierror | UnicodeError):
+        return InputError(
+            f"No address {host} is known. Correct --host: 127.0.0.1 for this computer alone, 0.0.0.0 for all "
+            "its networks.",
+            "--host",
+        )
+    number = error.errno if isinstance(error, OSError) else None
+    if number in (errno.EADDRNOTAVAIL, errno.EAFNOSUPPORT):
+        return InputError(
+            f"{host} is no address of this computer. Give one of its own with --host: 127.0.0.1 for this "
+            "computer alone, 0.0.0.0 for all its networks.",
+            "--host",
+        )
+    reason = error.strerror if isinstance(error, OSError) else "the number is out of range"
+    remedy = {
+        errno.EADDRINUSE: "End the program that uses it, or choose another with --port.",
+        errno.EACCES: "Choose one above 1023 with --port.",
+    }.get(number or 0, "Choose another with --port.")
+    return InputError(f"Port {port} on {host} cannot be used: {reason}. {remedy}", "--port")
 
 
 def _url(host: str, port: int, token: str | None) -> str:

@@ -79,6 +79,11 @@ def _is_good(backup: Backup) -> bool:
         return False
 
 
+def damaged_sentence(sentence: str, data: Path) -> str:
+    """That the database is damaged, with what follows from it and how a person gets back."""
+    return f"{sentence} Nothing can be stored. {way_back(data)}"
+
+
 def way_back(data: Path) -> str:
     """How a person gets back to the last good backup, in sentences."""
     good = last_good(data)

@@ -15,10 +15,11 @@ from typing import Any
 from app.common.clock import CLOCK, Clock
 from app.common.json import Json
 from app.store import run_rows
-from app.store.backups import MIGRATION, make_backup, way_back
+from app.store.backups import MIGRATION, damaged_sentence, make_backup
 from app.store.folder_lock import DatabaseUse
 from app.store.folder_time import FolderTime
-from app.store.schema import bring_up_to_date, is_outdated
+from app.store.quick_check import missing_sentence
+from app.store.schema import bring_up_to_date, is_outdated, try_write
 from app.store.storage_errors import storage_error
 from core.errors import StorageDamagedError
 
@@ -65,6 +66,10 @@ class Database:
                 if is_outdated(self._connection):
                     make_backup(path, MIGRATION)
                 bring_up_to_date(self._connection)
+                missing = missing_sentence(self._connection)
+                if missing:
+                    raise StorageDamagedError(f"The database {path} is damaged ({missing}).", str(path))
+                try_write(self._connection)
             self._opened = opened.pop_all()
 
     def close(self) -> None:
@@ -96,7 +101,7 @@ class Database:
     def take_damage(self, sentence: str) -> None:
         """Refuses to write from now on, since the file is damaged."""
         if self.damage is None:
-            self.damage = f"{sentence} Nothing can be stored. {way_back(self.path.parent)}"
+            self.damage = damaged_sentence(sentence, self.path.parent)
             logger.error("%s", self.damage)
             self.damaged()
 

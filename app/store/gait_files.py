@@ -11,7 +11,9 @@ from pathlib import Path
 
 from app.documents.gait_json import gait_content
 from app.documents.stored_gait import StoredGait, stored_gait
+from app.store.backups import FOLDER as BACKUPS
 from app.store.plain_file import read_plain_file, write_atomically
+from app.store.run_journal import FOLDER as RUNNING
 from app.store.storage_errors import file_error, left_undone
 from core.errors import InputError, StorageError
 from core.gait.gait import Gait
@@ -23,6 +25,10 @@ _ORDER = ".order"
 """File in the trash: ids of the gaits in it, the last deleted last."""
 
 _ID = re.compile(r"[a-z0-9][a-z0-9-]{0,79}")
+
+SET_ASIDE, PHOTOS, ATLASES = "set-aside", "trial-photos", "atlases"
+_MADE_LATER = (SET_ASIDE, PHOTOS, RUNNING, ATLASES, BACKUPS)
+"""Folders of the data folder that a start does not make."""
 
 
 def default_data_folder() -> Path:
@@ -81,6 +87,21 @@ def free_id(name: str, taken: Set[str]) -> str:
     return next(candidate for candidate in ids if candidate not in taken)
 
 
+def require_places(data: Path) -> None:
+    """Makes sure that no file stands where a folder is made once something is kept in it.
+
+    Raises:
+        InputError: one does.
+    """
+    for path in (data / name for name in _MADE_LATER):
+        if os.path.lexists(path) and not path.is_dir():
+            raise InputError(
+                f"{path} is a file, and the studio needs a folder of that name. Move it elsewhere, or give "
+                "another data folder with --data.",
+                "--data",
+            )
+
+
 def require_folder(data: Path) -> None:
     """Makes the data folder where it does not exist.
 
@@ -105,7 +126,7 @@ class GaitFiles:
     def __init__(self, data: Path) -> None:
         self._gaits = data / "gaits"
         self._trash = data / "trash"
-        self._aside = data / "set-aside"
+        self._aside = data / SET_ASIDE
         for folder in (data, self._gaits, self._trash):
             require_folder(folder)
         _sweep(self._gaits)

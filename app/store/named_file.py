@@ -3,7 +3,7 @@
 import errno
 import os
 import stat
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 
 from app.store.plain_file import write_atomically
@@ -15,19 +15,23 @@ _MOST_LINKS = 40
 """Links that are followed, as by the system."""
 
 
-def write_named(path: Path, content: str | bytes, before: Callable[[], object] = lambda: None) -> None:
+def write_named(
+    path: Path, content: str | bytes, beside: Path | None = None, companion: str | bytes = b""
+) -> None:
     """Writes a file that a person names, as a shell's `>` would, but a plain file whole or not at all.
 
-    A plain file is replaced, and keeps its mode, owner and extended attributes. Links are followed and stay.
+    A plain file is replaced, and keeps its mode, owner and extended attributes; it may have a companion, and
+    then both are written, or none. Links are followed and stay.
     A device, a pipe or one of this process's open files, such as /dev/stdout, is written through.
 
     Args:
         path: the file.
         content: what it holds from then on.
-        before: called once a new plain file is on the disk and is about to take its place.
+        beside: the companion; none is written beside what is no plain file, such as /dev/stdout or a pipe.
+        companion: what the companion holds from then on.
 
     Raises:
-        StorageError: the disk does not take it; a plain file is as it was.
+        StorageError: the disk does not take it; plain files are as they were.
         InputError: nothing can be written there, or the text holds half a character (a lone surrogate).
     """
     data = content if isinstance(content, bytes) else _encoded(content, path)
@@ -36,7 +40,7 @@ def write_named(path: Path, content: str | bytes, before: Callable[[], object] =
         if number is not None:
             _write_through(os.dup(number), data)
         elif state is None or stat.S_ISREG(state.st_mode):
-            write_atomically(_replaceable(path, state), data, before)
+            _replace(_replaceable(path, state), data, beside, companion)
         else:
             _require_writable(path, state)
             # Without O_TRUNC and O_CREAT; a pipe waits for its reader.
@@ -47,6 +51,28 @@ def write_named(path: Path, content: str | bytes, before: Callable[[], object] =
         if error.errno == errno.ELOOP:
             raise InputError(f"{path} is a link that leads nowhere but to links.", str(path)) from error
         raise file_error(error, path) from error
+
+
+def _replace(path: Path, data: bytes, beside: Path | None, companion: str | bytes) -> None:
+    """Replaces a plain file and its companion."""
+    if beside is None:
+        write_atomically(path, data)
+        return
+    try:
+        old = beside.read_bytes() if beside.is_file() else None
+    except OSError as error:
+        raise file_error(error, beside) from error
+
+    def write_beside() -> None:
+        write_named(beside, companion)
+
+    def undo() -> None:
+        if old is not None:
+            write_named(beside, old)
+        elif is_plain(beside):
+            Path(os.path.realpath(beside)).unlink()
+
+    write_atomically(path, data, write_beside, undo)
 
 
 def _encoded(text: str, path: Path) -> bytes:
@@ -61,6 +87,22 @@ def _encoded(text: str, path: Path) -> bytes:
             "that it comes from.",
             str(path),
         ) from error
+
+
+def file_path(text: str | os.PathLike[str]) -> Path:
+    """The path of a file that is to be written.
+
+    Raises:
+        InputError: it names a folder, also one that does not exist yet, as `results/` does.
+    """
+    path = Path(text)
+    if os.path.basename(text) in ("", os.curdir, os.pardir) or path.is_dir():
+        raise _is_folder(os.fspath(text) or os.curdir)
+    return path
+
+
+def _is_folder(name: str) -> InputError:
+    return InputError(f"{name} is a folder. Name a file in it.", name)
 
 
 def is_plain(path: Path) -> bool:
@@ -131,7 +173,7 @@ def _require_writable(path: Path, state: os.stat_result) -> None:
         InputError: it does not.
     """
     if stat.S_ISDIR(state.st_mode):
-        raise InputError(f"{path} is a folder. Name a file in it.", str(path))
+        raise _is_folder(str(path))
     if stat.S_ISSOCK(state.st_mode):
         raise InputError(f"{path} is a socket, into which no file can be written.", str(path))
 

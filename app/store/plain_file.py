@@ -1,15 +1,18 @@
 """Plain files: read without waiting for a pipe that anybody may have put there, written atomically."""
 
 import errno
+import itertools
 import os
 import stat
-import threading
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
 from app.store.storage_errors import file_error
 from core.errors import InputError
+
+_NUMBERS = itertools.count()
+"""Of the files that this process writes."""
 
 
 def read_plain_file(path: Path, most: int) -> bytes:
@@ -45,7 +48,12 @@ def read_plain_file(path: Path, most: int) -> bytes:
     return content
 
 
-def write_atomically(path: Path, content: str | bytes, before: Callable[[], object] = lambda: None) -> None:
+def write_atomically(
+    path: Path,
+    content: str | bytes,
+    before: Callable[[], object] = lambda: None,
+    undo: Callable[[], object] = lambda: None,
+) -> None:
     """Writes a file whole or not at all, and on disk when this returns.
 
     A file that is replaced passes its mode, owner and extended attributes on, as far as this account may.
@@ -55,13 +63,14 @@ def write_atomically(path: Path, content: str | bytes, before: Callable[[], obje
         content: what it holds from then on.
         before: called once the new file is on the disk and is about to take its place; what it raises leaves
             the old one.
+        undo: called where the new file cannot take its place after that.
 
     Raises:
         StorageError: the disk does not take it; what was there before is as it was.
         InputError: the file cannot be written there.
     """
-    # Fits wherever the name itself fits; each thread has its own.
-    partial = path.with_name(f".{path.name[:40]}.{threading.get_ident():x}.{os.getpid()}.partial")
+    # Fits wherever the name itself fits; each file has its own, also one that `before` writes.
+    partial = path.with_name(f".{path.name[:40]}.{next(_NUMBERS)}.{os.getpid()}.partial")
     try:
         partial.unlink(missing_ok=True)
         flags, mode = os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600 if os.path.lexists(path) else 0o666
@@ -71,7 +80,11 @@ def write_atomically(path: Path, content: str | bytes, before: Callable[[], obje
             file.flush()
             os.fsync(file.fileno())
         before()
-        partial.replace(path)
+        try:
+            partial.replace(path)
+        except BaseException:
+            undo()
+            raise
         folder = os.open(path.parent, os.O_RDONLY)
         try:
             os.fsync(folder)

@@ -5,6 +5,7 @@ from contextlib import closing
 from pathlib import Path
 from urllib.parse import quote
 
+from app.store.schema import missing_tables
 from app.store.storage_errors import storage_error
 from core.errors import StorageDamagedError
 
@@ -45,12 +46,19 @@ def damage_of(path: Path, *, is_open: bool = False) -> str | None:
         with closing(reading(path, is_open=is_open)) as connection:
             found = _findings(connection)
             parts = sorted({_part(table) for table in _damaged_tables(connection)}) if found else ()
+            found = found or missing_sentence(connection)
     except sqlite3.Error as error:
         refusal = storage_error(error, path)
         if isinstance(refusal, StorageDamagedError):
             return str(error)
         raise refusal or error from error
     return (f"in {', '.join(parts)}: {found}" if parts else found) or None
+
+
+def missing_sentence(connection: sqlite3.Connection) -> str:
+    """Which tables a database of this program's version has not; empty where it has all."""
+    missing = missing_tables(connection)
+    return f"its table {', '.join(missing)} is missing" if missing else ""
 
 
 def _findings(connection: sqlite3.Connection, table: str = "") -> str:

@@ -16,6 +16,9 @@ from pathlib import Path
 
 logger = logging.getLogger(__name__)
 
+FOLDER = "running"
+"""Where the journals are in a data folder."""
+
 _HEAD = struct.Struct("<BdI")
 """Kind, time in s, length of what follows in bytes."""
 
@@ -112,7 +115,7 @@ def journalled_runs(data: Path) -> list[str]:
     Args:
         data: the data folder.
     """
-    return sorted(path.stem for path in (data / "running").glob("*.journal"))
+    return sorted(path.stem for path in (data / FOLDER).glob("*.journal"))
 
 
 def _new_locked(path: Path) -> int:
@@ -143,4 +146,4 @@ def _read(content: bytes) -> tuple[Entry, ...]:
 
 
 def _path(data: Path, run: str) -> Path:
-    return data / "running" / f"{run}.journal"
+    return data / FOLDER / f"{run}.journal"

@@ -6,6 +6,7 @@
 import json
 import sqlite3
 from collections.abc import Callable
+from contextlib import closing
 
 from core.errors import InputError
 
@@ -41,6 +42,34 @@ def bring_up_to_date(connection: sqlite3.Connection) -> None:
         for migrate in _MIGRATIONS[found:]:
             migrate(connection)
         connection.execute(f"PRAGMA user_version = {NEWEST}")
+
+
+def try_write(connection: sqlite3.Connection) -> None:
+    """Makes sure that a database takes changes; leaves it as it was.
+
+    SQLite opens a file that may only be read without a word, and begins transactions on it too.
+
+    Raises:
+        sqlite3.Error: it takes none.
+    """
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        connection.execute(f"PRAGMA user_version = {version(connection)}")
+    finally:
+        connection.rollback()
+
+
+def missing_tables(connection: sqlite3.Connection) -> list[str]:
+    """Tables that a database of this version should have and has not; none where its version is another."""
+    if connection.execute("PRAGMA user_version").fetchone()[0] != NEWEST:
+        return []
+    with closing(sqlite3.connect(":memory:")) as whole:
+        bring_up_to_date(whole)
+        return sorted(_tables(whole) - _tables(connection))
+
+
+def _tables(connection: sqlite3.Connection) -> set[str]:
+    return {name for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type='table'")}
 
 
 def is_outdated(connection: sqlite3.Connection) -> bool:

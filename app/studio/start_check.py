@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
-from app.atlas.library import FOLDER as ATLASES
 from app.atlas.library import AtlasLibrary
+from app.store.backups import damaged_sentence
 from app.store.database import DATABASE, Database
 from app.store.folder_lock import DATABASE_USERS, STUDIO, DatabaseUse, StudioLock
-from app.store.gait_files import GaitFiles, require_folder
+from app.store.gait_files import ATLASES, GaitFiles, require_folder, require_places
 from app.store.quick_check import damage_of
-from app.store.schema import is_outdated
+from app.store.schema import is_outdated, try_write
 from app.store.storage_errors import storage_error
 from app.videos.files import VideoFiles
 from core.errors import InputError, StorageDamagedError
@@ -64,6 +64,7 @@ def check_start(data: Path) -> StartCheck:
 
 
 def _opened(data: Path, *, is_new: bool) -> StartCheck:
+    require_places(data)
     files = GaitFiles(data)
     VideoFiles(data)
     AtlasLibrary(data / ATLASES)
@@ -76,11 +77,10 @@ def _try_database(path: Path) -> bool:
     if path.exists():
         with _sentences(path), closing(sqlite3.connect(_address(path), uri=True)) as connection:
             outdated = is_outdated(connection)
-            connection.execute("BEGIN IMMEDIATE")
-            connection.rollback()
-        damage = damage_of(path, is_open=True)
-        if damage is not None:
-            raise StorageDamagedError(f"The database {path} is damaged ({damage}).", str(path))
+            try_write(connection)
+            damage = damage_of(path, is_open=True)
+            if damage is not None:
+                raise StorageDamagedError(f"The database {path} is damaged ({damage}).", str(path))
         if outdated:
             return True
     Database(path).close()
@@ -95,10 +95,12 @@ def _address(path: Path) -> str:
 def _sentences(path: Path) -> Iterator[None]:
     try:
         yield
-    except sqlite3.Error as error:
-        refusal = storage_error(error, path)
+    except (sqlite3.Error, StorageDamagedError) as error:
+        refusal = storage_error(error, path) if isinstance(error, sqlite3.Error) else error
         if refusal is None:
             raise
+        if isinstance(refusal, StorageDamagedError):
+            refusal = StorageDamagedError(damaged_sentence(refusal.sentence, path.parent), refusal.where)
         raise refusal from error
 
 

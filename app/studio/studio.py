@@ -7,7 +7,6 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from app.atlas.library import FOLDER as ATLASES
 from app.atlas.library import AtlasLibrary
 from app.atlas.service import AtlasService
 from app.cameras.address import CameraAddress
@@ -37,7 +36,7 @@ from app.simulation.repository import SimulationRepository
 from app.simulation.service import SimulationService
 from app.store.database import DATABASE, Database
 from app.store.database_keeper import DatabaseKeeper
-from app.store.gait_files import GaitFiles
+from app.store.gait_files import ATLASES, GaitFiles, require_places
 from app.store.simulation_store import SimulationStore
 from app.store.trial_reference_store import TrialReferenceStore
 from app.studio.file_watch import FileWatch
@@ -88,6 +87,7 @@ class Studio:
 
     def __init__(self, data: Path, device: str, cameras: Sequence[CameraAddress] = ()) -> None:
         with ExitStack() as self._parts:
+            require_places(data)
             files = GaitFiles(data)
             self._database = self._register(Database(data / DATABASE))
             self.stop_executor = self._parts.enter_context(ThreadPoolExecutor(2, "stop"))

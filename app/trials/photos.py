@@ -8,7 +8,7 @@ from typing import Any
 
 from app.common.json import Json
 from app.store.database import Database
-from app.store.gait_files import require_folder
+from app.store.gait_files import PHOTOS, require_folder
 from app.store.photo_store import PhotoStore
 from app.store.plain_file import write_atomically
 from app.trials.service import TrialService
@@ -39,7 +39,7 @@ class TrialPhotos:
     def __init__(self, service: TrialService, database: Database, data: Path, vision: VisionServices) -> None:
         self._service = service
         self._store = PhotoStore(database)
-        self._folder = data / "trial-photos"
+        self._folder = data / PHOTOS
         self._vision = vision
         self._lock = threading.Lock()
 

@@ -42,7 +42,7 @@ def bench_moves(report: Path | None = None) -> list[Row]:
     walks = (published_walk(), fastest_walk()) if PUBLISHED.exists() else (fastest_walk(),)
     if report is not None:
         data = json.dumps(walks_content(walks)) + "\n"
-        write_named(report, moves_svg(walks), lambda: write_named(report.with_suffix(".json"), data))
+        write_named(report, moves_svg(walks), report.with_suffix(".json"), data)
     return [_row(walk) for walk in walks]
 
 

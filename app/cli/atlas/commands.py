@@ -21,6 +21,7 @@ from app.cli.common.progress import end_line, rewrite_line
 from app.common.json import Json
 from app.common.signals import Interrupted
 from app.documents.gait_json import gait_content
+from app.export.trajectory_files import require_unread
 from app.store.named_file import form_of, is_plain, write_named
 from app.store.plain_file import read_plain_file
 from core.atlas.row import AtlasRow, RowStatus
@@ -125,6 +126,7 @@ def run_atlas_front(options: Namespace) -> int:
 
 def run_atlas_export(options: Namespace) -> int:
     """Writes an atlas as CSV, as Parquet, or as a page with its map."""
+    require_unread(options.output, options.atlas)
     with closing(AtlasFile(included_or(options.atlas))) as atlas:
         count = export_atlas(atlas, options.output)
     content = {"gaits": count, "file": str(options.output)}
@@ -137,6 +139,7 @@ def run_atlas_open(options: Namespace) -> int:
     end_on_signals()
     if options.output is not None and form_of(options.output, (".json",)) is None:
         raise InputError(f"{options.output} must end in .json; it becomes a gait file.", "-o")
+    require_unread(options.output, options.atlas)
     with closing(AtlasFile(included_or(options.atlas))) as atlas:
         if options.output is None:
             opened = opened_point(atlas, options.id)

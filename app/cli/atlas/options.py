@@ -8,6 +8,7 @@ from app.atlas.physics_choice import physics_rule
 from app.cli.atlas import commands
 from app.cli.common.argument_types import add_robot, whole
 from app.cli.common.command import set_command
+from app.store.named_file import file_path
 from core.atlas.space import MOST_SEED
 
 DEFAULT_COUNT = 10_000
@@ -38,7 +39,7 @@ def atlas_command(parser: argparse.ArgumentParser) -> None:
     export.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=file_path,
         required=True,
         metavar="FILE",
         help="FILE.csv, FILE.parquet or FILE.html",
@@ -48,7 +49,7 @@ def atlas_command(parser: argparse.ArgumentParser) -> None:
     opened.add_argument("atlas", type=Path, metavar="ATLAS", help=ATLAS_HELP)
     opened.add_argument("id", type=whole(0, MOST_COUNT), metavar="ID", help="number of the gait")
     opened.add_argument(
-        "-o", "--output", type=Path, default=None, metavar="GAIT.json", help="gait file to write"
+        "-o", "--output", type=file_path, default=None, metavar="GAIT.json", help="gait file to write"
     )
 
 
@@ -73,7 +74,7 @@ def _run_options(parser: argparse.ArgumentParser) -> None:
     text = "simulate solved gaits with variations: those of the front, all, or a sample of N"
     add("--physics", type=_physics_rule, default=None, metavar="front|all|N", help=text)
     text = "ATLAS.sqlite, made or gone on with"
-    add("-o", "--output", type=Path, required=True, metavar="ATLAS.sqlite", help=text)
+    add("-o", "--output", type=file_path, required=True, metavar="ATLAS.sqlite", help=text)
 
 
 def _physics_rule(text: str) -> str | int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import stat
 import subprocess
 import sys
@@ -27,6 +28,9 @@ def motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def words_of(command: str, motion: Path) -> tuple[str, ...]:
     return {
         "manual": ("manual", "walk"),
+        "optimise": ("optimise", "walk"),
+        "frontier": ("frontier", "walk"),
+        "fastest": ("fastest", "walk"),
         "waypoints": ("waypoints", str(motion)),
         "export": ("export", str(motion), "--format", "csv"),
         "import": ("import", str(motion)),
@@ -60,6 +64,83 @@ def test_a_full_device_is_exit_2(capsys: pytest.CaptureFixture[str], motion: Pat
     status, out, err = run(capsys, *words_of(command, motion), "-o", "/dev/full")
     assert (status, out) == (2, "")
     assert "/dev/full cannot be written: No space left on device." in err
+
+
+@pytest.mark.parametrize("output", ["", ".", "./", "..", "/", "new/", "new/.", "old.csv/", "folder"])
+@pytest.mark.parametrize(
+    "command",
+    ["manual", "optimise", "frontier", "fastest", "waypoints", "export", "import", "atlas export"],
+)
+def test_a_folder_is_exit_2_before_anything_is_computed(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    motion: Path,
+    command: str,
+    output: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("folder").mkdir()
+    Path("old.csv").write_text("old")
+    assert run(capsys, *words_of(command, motion), "-o", output) == (
+        2,
+        "",
+        f"{output or '.'} is a folder. Name a file in it.\n",
+    )
+    assert sorted(entry.name for entry in Path().iterdir()) == ["folder", "old.csv"]
+    assert Path("old.csv").read_text() == "old"
+
+
+@pytest.mark.parametrize(
+    ("words", "output", "said"),
+    [
+        ("optimise gait.json", "gait.json", "gait.json"),
+        ("frontier gait.json", "link.json", "link.json"),
+        ("fastest gait.json", "gait.json", "gait.json"),
+        ("fastest gait.json", "hard.json", "hard.json"),
+        ("optimise gait.footfall.json", "gait.csv", "gait.footfall.json (companion of gait.csv)"),
+        ("export gait.json --format json", "./gait.json", "gait.json"),
+        ("waypoints walk.csv", "walk.csv", "walk.csv"),
+        ("waypoints walk.csv", "sub/../walk.csv", "sub/../walk.csv"),
+        ("waypoints walk.csv", "walk.txt", "walk.footfall.json (companion of walk.txt)"),
+        ("waypoints walk.csv", "walk.footfall.json", "walk.footfall.json"),
+        ("export walk.csv --format csv", "walk.csv", "walk.csv"),
+        ("import walk.csv", "walk.csv", "walk.csv"),
+        ("import walk.csv", "walk.footfall.json", "walk.footfall.json"),
+        ("atlas export atlas.csv", "atlas.csv", "atlas.csv"),
+        ("atlas open atlas.json 1", "atlas.json", "atlas.json"),
+    ],
+)
+def test_the_file_that_is_read_is_not_written_over(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    words: str,
+    output: str,
+    said: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("sub").mkdir()
+    footfall.plan("walk-manual-0").save("walk.csv")
+    footfall.gait("walk").save("gait.json")
+    shutil.copy("gait.json", "gait.footfall.json")
+    Path("link.json").symlink_to("gait.json")
+    Path("hard.json").hardlink_to("gait.json")
+    for name in ("atlas.csv", "atlas.json"):
+        Path(name).touch()
+    before = {path.name: path.read_bytes() for path in Path().iterdir() if path.is_file()}
+    status, out, err = run(capsys, *words.split(), "-o", output)
+    assert (status, out, err) == (2, "", f"{said} is the file that is read; choose another name.\n")
+    assert {path.name: path.read_bytes() for path in Path().iterdir() if path.is_file()} == before
+
+
+@pytest.mark.parametrize("words", ["import walk.csv", "export walk.csv --format json"])
+def test_a_gait_file_beside_a_companion_is_written(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    footfall.plan("walk-manual-0").save("walk.csv")
+    assert run(capsys, *words.split(), "-o", "walk.json")[0] == 0
 
 
 def test_a_link_and_its_companion(capsys: pytest.CaptureFixture[str], tmp_path: Path, motion: Path) -> None:
@@ -118,6 +199,7 @@ def test_python_saves_by_the_same_rules(tmp_path: Path, motion: Path) -> None:
     names = sorted(entry.name for entry in tmp_path.iterdir())
     assert names == ["null.csv", "null.waypoints.csv", "target.json", "walk.json"]
     (tmp_path / "folder.csv").mkdir()
-    with pytest.raises(footfall.InputError, match="is a folder"):
-        plan.save(tmp_path / "folder.csv")
+    for path in (tmp_path / "folder.csv", f"{tmp_path}/new.csv/"):
+        with pytest.raises(footfall.InputError, match="is a folder"):
+            plan.save(path)
     assert stat.S_ISCHR(os.stat(os.devnull).st_mode)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import pty
 import socket
@@ -16,6 +17,7 @@ from pathlib import Path
 
 import pytest
 
+from app.export.trajectory_files import companion_path, write_with_companion
 from app.store.named_file import form_of, is_plain, open_file_number, write_named
 from core.errors import FootfallError, InputError, StorageFullError
 from tests.support.studio_process import PROJECT
@@ -52,7 +54,7 @@ def said_of_writes(account: int, *paths: Path) -> list[str]:
 
 def write_beside(path: Path) -> None:
     """Writes a file with a companion."""
-    write_named(path, NEW, lambda: write_named(path.with_suffix(".companion"), NEW))
+    write_named(path, NEW, path.with_suffix(".companion"), NEW)
 
 
 @pytest.fixture
@@ -282,14 +284,48 @@ def test_a_disk_that_takes_no_more_leaves_the_file_as_it_was(old: Path) -> None:
     assert [path.name for path in old.parent.iterdir()] == [old.name]
 
 
-def test_what_fails_before_the_end_leaves_the_file_as_it_was(old: Path) -> None:
-    def full() -> None:
-        raise StorageFullError("no room for the companion")
-
-    with pytest.raises(StorageFullError):
-        write_named(old, NEW, full)
+@pytest.mark.parametrize("companion", ["c" * 256, "none/companion", "folder"])
+def test_without_its_companion_a_file_stays_as_it_was(old: Path, companion: str) -> None:
+    (old.parent / "folder").mkdir()
+    with pytest.raises(InputError, match=companion):
+        write_named(old, NEW, old.parent / companion, NEW)
     assert old.read_text() == OLD
-    assert [path.name for path in old.parent.iterdir()] == [old.name]
+    assert sorted(path.name for path in old.parent.iterdir()) == ["file.csv", "folder"]
+
+
+@pytest.mark.parametrize("is_new", [True, False])
+def test_a_companion_goes_back_where_its_file_cannot_be_replaced(
+    old: Path, monkeypatch: pytest.MonkeyPatch, is_new: bool
+) -> None:
+    beside, replace = old.with_suffix(".companion"), Path.replace
+    if not is_new:
+        beside.write_text(OLD)
+
+    def replace_no_file(partial: Path, path: Path) -> Path:
+        if path == old:
+            raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))
+        return replace(partial, path)
+
+    monkeypatch.setattr(Path, "replace", replace_no_file)
+    with pytest.raises(FootfallError, match="Operation not permitted"):
+        write_beside(old)
+    names = [old.name] if is_new else [beside.name, old.name]
+    assert sorted(path.name for path in old.parent.iterdir()) == names
+    assert all(path.read_text() == OLD for path in old.parent.iterdir())
+
+
+@pytest.mark.parametrize("length", [1, 40, 236, 240])
+def test_a_long_name_and_its_companion_are_written(tmp_path: Path, length: int) -> None:
+    path = tmp_path / f"{'a' * length}.csv"
+    write_with_companion(path, NEW, OLD)
+    assert (path.read_text(), companion_path(path).read_text()) == (NEW, OLD)
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_name_that_is_too_long_for_a_companion_is_not_written(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"footfall\.json cannot be written: File name too long"):
+        write_with_companion(tmp_path / f"{'a' * 245}.csv", NEW, OLD)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_the_form_is_that_of_the_name_or_the_first_one() -> None:

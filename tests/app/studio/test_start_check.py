@@ -25,11 +25,12 @@ NOBODY = 65534
 AS_NOBODY = f"""
 import os, sys
 from pathlib import Path
+from app.store.database import DATABASE, Database
 from app.studio.start_check import check_start
 from app.store.gait_files import require_folder
 from core.errors import FootfallError
 os.setgroups([]); os.setgid({NOBODY}); os.setuid({NOBODY})
-for act in (require_folder, check_start):
+for act in (require_folder, check_start, lambda data: Database(data / DATABASE)):
     try:
         act(Path(sys.argv[1]))
     except FootfallError as refusal:
@@ -56,6 +57,11 @@ def serve_sentence(capsys: pytest.CaptureFixture[str], data: Path) -> str:
         ("", True),
         ("gaits", True),
         ("trash", True),
+        ("running", True),
+        ("backups", True),
+        ("atlases", True),
+        ("set-aside", True),
+        ("trial-photos", True),
         (STUDIO, False),
         (DATABASE, False),
         ("database.lock", False),
@@ -90,9 +96,41 @@ def test_a_home_without_the_right_to_write_is_no_ok(mode: int) -> None:
         data = Path(home) / ".local/share/footfall-studio"
         command = [sys.executable, "-c", AS_NOBODY, str(data)]
         said = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True)
-    made, checked = said.stdout.splitlines()
+    made, checked, _ = said.stdout.splitlines()
     assert made == f"The data folder {data} cannot be made: Permission denied. Give another with --data."
     assert checked == made
+
+
+@pytest.mark.skipif(os.getuid() != 0, reason="only root can become somebody else")
+def test_a_database_that_may_only_be_read_is_no_ok() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        data = Path(folder)
+        Database(data / DATABASE).close()
+        (data / DATABASE).chmod(0o400)
+        for path in (data, *data.iterdir()):
+            os.chown(path, NOBODY, NOBODY)
+        before = (data / DATABASE).read_bytes()
+        command = [sys.executable, "-c", AS_NOBODY, str(data)]
+        said = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, check=True)
+        assert (data / DATABASE).read_bytes() == before
+    checked, opened = said.stdout.splitlines()
+    assert checked == opened
+    assert "may only be read" in checked
+    assert "Give yourself the right to write to it" in checked
+
+
+@pytest.mark.parametrize("table", ["run", "open_gait", "physics_set"])
+def test_a_database_without_one_of_its_tables_is_no_ok(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, table: str
+) -> None:
+    Database(tmp_path / DATABASE).close()
+    with closing(sqlite3.connect(tmp_path / DATABASE)) as connection:
+        connection.execute(f"DROP TABLE {table}")
+    with pytest.raises(FootfallError) as refusal:
+        check_start(tmp_path)
+    assert f"is damaged (its table {table} is missing). Nothing can be stored." in refusal.value.sentence
+    assert "footfall restore" in refusal.value.sentence
+    assert refusal.value.sentence == serve_sentence(capsys, tmp_path)
 
 
 @pytest.mark.parametrize("place", ["data", "home/.local/share/footfall-studio"])

@@ -1,7 +1,8 @@
 """From the text of a CSV to rows of cells, in whatever dialect a spreadsheet or pandas wrote it.
 
 Read is what is unambiguous: commas, or in every row semicolons, tabs or blanks, then also with a decimal
-comma; quotes; a first column that counts the rows; empty columns at the right, and empty rows at the end.
+comma; quotes; a first column that counts the rows or has no name; empty columns at the right, and
+empty rows at the end.
 What is unusual for the lab's programs is said in `notes`.
 """
 
@@ -25,6 +26,9 @@ _SIGN_NAMES = {";": ";", "\t": "tabs", " ": "blanks", ",": ",", "|": "|"}
 _BEHIND_COMMA = re.compile(r"[0-9]+(?:[eE][+-]?[0-9]+)?")
 _WAY_OUT = "Write decimal points, or ; between the numbers"
 _COUNTED = "The first column counts the rows and was left out."
+_NAMELESS = "The first column has no name and was left out."
+_SECOND = re.compile(r"1|(?:.*\D)?2")
+"""The name of a second column, so that the name that is missing before it is the first one's."""
 _OTHERS = "other numbers have a decimal comma; use one of them"
 _SEPARATE = " Separate the numbers by commas, and write decimal points."
 
@@ -148,9 +152,36 @@ class Table:
         if not _counts([row[0] for row in self.rows[first:]]):
             return self
         is_headed = first > 0 and len(self.rows[0]) == len(self.rows[first])
-        rows = [row[1:] if is_headed or index >= first else row for index, row in enumerate(self.rows)]
+        return self._without_first_column(0 if is_headed else first, _COUNTED)
+
+    def without_index(self) -> "Table":
+        """The table without a first column that its header shows to be an index: it has no name there.
+
+        Raises:
+            InputError: the name that is missing may be that of a column of numbers.
+        """
+        if len(self.rows) < 2:
+            return self
+        head, cells = self.head, [row[0] for row in self.rows[1:]]
+        is_one_more = len(self.rows) > 3 and {len(row) for row in self.rows[1:]} == {len(head) + 1}
+        is_nameless = len(head) > 1 and head[0] in ("", "Unnamed: 0") and _are_names(head[1:])
+        if (is_nameless or is_one_more) and _counts(cells):
+            return self._without_first_column(0 if is_nameless else 1, _COUNTED)
+        if not is_nameless:
+            return self
+        if head[0] == "" and _SECOND.fullmatch(head[1]):
+            place = f"{self.name}:{self.lines[0]}"
+            raise InputError(
+                f"{place}, column 1: the first column has no name, so that it may be an index or numbers. "
+                "Write its name, or take the column out.",
+                place,
+            )
+        return self._without_first_column(0, _NAMELESS)
+
+    def _without_first_column(self, first: int, note: str) -> "Table":
+        rows = [row[1:] if index >= first else row for index, row in enumerate(self.rows)]
         left_out = self.columns_left_out + 1
-        return replace(self, rows=rows, notes=(*self.notes, _COUNTED), columns_left_out=left_out)
+        return replace(self, rows=rows, notes=(*self.notes, note), columns_left_out=left_out)
 
 
 def read_table(text: str, name: str, *, has_empty_rows: bool = False) -> Table:
@@ -187,7 +218,7 @@ def read_table(text: str, name: str, *, has_empty_rows: bool = False) -> Table:
         notes.insert(0, f"Read with {_SIGN_NAMES[sign]} between the numbers{comma}.")
     simple_from = sys.maxsize if has_decimal_comma else _simple_from(text)
     table = Table(name, rows, numbers, tuple(notes), has_decimal_comma, simple_from)
-    return table.without_count() if _has_count(rows) else table
+    return table.without_index()
 
 
 def _simple_from(text: str) -> int:
@@ -302,22 +333,23 @@ def _filled(row: list[str]) -> int:
     return next((place for place in range(len(row), 0, -1) if row[place - 1].strip()), 0)
 
 
-def _has_count(rows: list[list[str]]) -> bool:
-    """Whether a first column is there that only counts: without a name, or one more than there are names."""
-    if len(rows) < 2:
-        return False
-    names = _filled(rows[0])
-    is_nameless = rows[0][0].strip() in ("", "Unnamed: 0") and names > 1
-    is_one_more = len(rows) > 3 and {len(row) for row in rows[1:]} == {names + 1}
-    return (is_nameless or is_one_more) and _counts([row[0] for row in rows[1:]])
+def _are_names(cells: list[str]) -> bool:
+    """Whether cells of a header are words, or count 0, 1, 2, … as the lab's files do."""
+    return not any(map(_is_plain, cells)) or (_counts(cells) and cells[0] in ("0", "1"))
 
 
 def _counts(cells: list[str]) -> bool:
-    """Whether cells are 0, 1, 2, … or 1, 2, 3, …."""
-    if not cells or cells[0].strip() not in ("0", "1"):
+    """Whether cells are whole numbers, each as much more than the one before: 0, 1, 2, … or 0.0, 2.0, …."""
+    try:
+        values = [plain_number(cell.replace(",", ".")) for cell in cells]
+    except ValueError:
         return False
-    first = int(cells[0])
-    return [cell.strip() for cell in cells] == [str(first + index) for index in range(len(cells))]
+    if not values or any(value % 1 for value in values):
+        return False
+    if len(values) == 1:
+        return values[0] in (0, 1)
+    steps = set(np.diff(values).tolist())
+    return len(steps) == 1 and min(steps) > 0
 
 
 def _is_plain(cell: str) -> bool:

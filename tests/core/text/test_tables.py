@@ -145,6 +145,29 @@ def test_a_count_is_no_first_sample_of_a_trajectory(has_header: bool, begin: int
     assert notes == (COUNTED,)
 
 
+NAMELESS = "The first column has no name and was left out."
+
+
+@pytest.mark.parametrize("kind", TEXTS)
+@pytest.mark.parametrize(
+    ("cell", "note"),
+    [("{}.0", COUNTED), ("{}0", COUNTED), ("{}e1", COUNTED), ("0.{}", NAMELESS), ("row {}", NAMELESS)],
+)
+def test_an_index_is_left_out_whatever_it_holds(kind: str, cell: str, note: str) -> None:
+    head, *lines = TEXTS[kind].splitlines()
+    text = "\n".join([f",{head}", *(f"{cell.format(row)},{line}" for row, line in enumerate(lines))])
+    expected, _ = READERS[kind](TEXTS[kind])
+    values, notes = READERS[kind](text)
+    assert np.array_equal(values, expected)
+    assert notes == (note,)
+
+
+@pytest.mark.parametrize("head", [",Column2,Column3,Column4", ",1,2,3"])
+def test_a_first_column_whose_name_is_missing_is_refused(head: str) -> None:
+    with pytest.raises(InputError, match="the first column has no name"):
+        read_trajectory(f"{head}\n{numbers(30, 4)}")
+
+
 def test_numbers_that_count_under_a_name_of_their_own_are_numbers() -> None:
     text = "X_D1,Y_D1\n0,5\n1,5\n2,5\n3,5\n"
     assert read_track_csv(text).track.feet[:, 0, 0].tolist() == [0.0, 0.01, 0.02, 0.03]

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from app.vision.avi_index import pictures_there
-from app.vision.film_faults import begins_later, nothing_decodes, nothing_opens
+from app.vision.film_faults import begins_later, nothing_decodes, nothing_opens, require_times
 from app.vision.frame_source import Facts, increasing_times, rate_of
 from app.vision.opencv import cv2
 from app.vision.video_io import Picture
@@ -69,8 +69,8 @@ class VideoFile:
         times: (n,) of each picture after the first, s, increasing.
 
     Raises:
-        InputError: the file is no video, nothing in it decodes, it tells no frame rate, or has pictures that
-            are too large.
+        InputError: the file is no video, nothing in it decodes, it tells no frame rate or no times, or has
+            pictures that are too large.
     """
 
     def __init__(self, path: Path, tell: Callable[[], object] = lambda: None) -> None:
@@ -93,6 +93,7 @@ class VideoFile:
     def _facts(self, packets: Packets | None, tell: Callable[[], object]) -> None:
         size = (self._number(cv2.CAP_PROP_FRAME_WIDTH), self._number(cv2.CAP_PROP_FRAME_HEIGHT))
         held = packets or Packets("", np.zeros(0))
+        require_times(self._path)
         if held.times.size:
             require_readable(*size, self._name)
         # A bare row of pictures says nothing of their number and cannot be sought in.
@@ -106,7 +107,7 @@ class VideoFile:
         if not self._is_row and (has_gap or not self._decodes_from_end_to_end()):
             self._file_times = self._decoded_times(tell)
         if not self._file_times.size:
-            raise nothing_decodes(self._path, held.codec, held.times.size)
+            raise nothing_decodes(self._path, held.codec, held.times.size, told_count)
         times = self._file_times
         remark = ""
         if there is not None and has_gap:

@@ -30,6 +30,7 @@ from tests.support.trials.films import (
     turned,
     with_codec,
     without_pictures,
+    without_times,
 )
 from tests.support.trials.retimed import retimed
 
@@ -50,7 +51,13 @@ REFUSED: list[tuple[str, str, Change, str]] = [
     ("avi", "MJPG", lambda film: film.replace(b"vids", b"auds"), "sound and no pictures"),
     ("mp4", "mp4v", lambda film: b"0.1, 0.2\n" * 200, "holds text. Choose the film itself"),
     ("mp4", "mp4v", lambda film: b"", "walk.mp4 is empty; choose a video"),
-    ("mp4", "mp4v", without_pictures, "film without pictures: it lasts 0 s"),
+    ("mp4", "mp4v", without_pictures, "film without pictures: it lasts 0 s. Record it again"),
+    ("mp4", "mp4v", lambda film: film[:-100], f"index is damaged or cut off. {AGAIN}.* untrunc"),
+    ("mp4", "mp4v", lambda film: film.replace(b"stts", b"xxxx"), f"index is damaged or cut off. {AGAIN}"),
+    ("mp4", "mp4v", lambda film: film.replace(b"stsz", b"xxxx"), f"index is damaged or cut off. {AGAIN}"),
+    ("mp4", "mp4v", lambda film: film.replace(b"stco", b"xxxx"), f"index is damaged or cut off. {AGAIN}"),
+    ("mp4", "mp4v", without_times, "all its pictures have the same one.*ffmpeg -i"),
+    ("avi", "MJPG", lambda film: film.replace(b"MJPG", b"I420"), f"codec is “I420”, .*{CONVERT}"),
     ("mp4", "mp4v", lambda film: bytes(range(256)) * 40, rf"its kind is not known here.*{CONVERT}"),
 ]
 

@@ -4,12 +4,13 @@ import json
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from datetime import date, time
 from typing import Any
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.text.decoding import place_in, text_of, without_mark
 from core.text.numbers import MOST_DIGITS, number_fault, plain_number, shortened
@@ -92,16 +93,40 @@ def _json_slip(text: str, error: json.JSONDecodeError) -> str:
     return _slip(text, error.lineno, error.colno)
 
 
-def json_numbers(content: Any) -> Floats:
-    """Numbers of JSON content as an array.
+def json_numbers(content: Mapping[str, Any], key: str) -> Floats:
+    """The numbers of a key of JSON content as an array.
 
     Raises:
-        ValueError: there are texts among them, such as numbers in quotes, or lists of other lengths.
+        ValueError: the key is missing, or has texts, such as numbers in quotes, or lists of other lengths.
     """
-    array = np.array(content)
+    if key not in content:
+        raise ValueError(f"“{key}” is missing")
+    try:
+        array = np.array(content[key])
+    except ValueError:
+        raise ValueError(f"the lists of “{key}” differ in length") from None
     if array.size and array.dtype.kind not in "biuf":
-        raise ValueError("what must be numbers has other values, such as numbers in quotes")
+        raise ValueError(f"“{key}” must have numbers and has other values, such as numbers in quotes")
     return array.astype(np.float64)
+
+
+def json_truths(content: Mapping[str, Any], key: str) -> Bools:
+    """The same for true and false, which may be written as 1 and 0.
+
+    Raises:
+        ValueError: as in `json_numbers`, or a value is another number.
+    """
+    numbers = json_numbers(content, key)
+    for value in numbers[(numbers != 0) & (numbers != 1)][:1]:
+        raise ValueError(f"“{key}” has {value:g}; it may have 0 and 1, or true and false")
+    return numbers.astype(np.bool_)
+
+
+def as_written(value: Any) -> str:
+    """A value of JSON or TOML as a person wrote it."""
+    if isinstance(value, date | time):
+        return f"a date or time ({value.isoformat()})"
+    return shortened(json.dumps(value, ensure_ascii=False, default=str))
 
 
 def toml_content(source: str | bytes, name: str) -> dict[str, Any]:

@@ -20,8 +20,16 @@ from core.errors import InputError
 from core.text.decoding import MARK, without_mark
 from core.text.numbers import number_fault, plain_number, reads_plainly, shortened
 
-_SEP_LINE = re.compile(r'"?sep=([,;\t| ])"?[ \t]*')
+_SEP_LINE = re.compile(r'"?sep=([,;\t| ])"?[ \t]*', re.IGNORECASE)
 """A first line by which Excel is told what stands between the cells."""
+_OTHER_ENDS = {
+    "\r": "carriage return",
+    "\x0c": "form feed",
+    "\x85": "next line (U+0085)",
+    "\u2028": "line separator (U+2028)",
+    "\u2029": "paragraph separator (U+2029)",
+}
+_OTHER_END = re.compile(f"[{''.join(_OTHER_ENDS)}]")
 _SIGN_NAMES = {";": ";", "\t": "tabs", " ": "blanks", ",": ",", "|": "|"}
 _BEHIND_COMMA = re.compile(r"[0-9]+(?:[eE][+-]?[0-9]+)?")
 _WAY_OUT = "Write decimal points, or ; between the numbers"
@@ -103,17 +111,27 @@ class Table:
             fault += "; the row is empty, delete it"
         elif row > 0 and len(self.rows[row]) > 1 and all(one.strip()[:1].isalpha() for one in self.rows[row]):
             fault += "; only the first line may hold words"
-        help_ = _SEPARATE if set(cell.strip()) & set("; \t") else ""
+        parts = re.split(r"[; \t]+", cell.strip("; \t"))
+        help_ = _SEPARATE if len(parts) > 1 and all(map(_is_plain, parts)) else ""
         return InputError(f"{place}, column {column + 1 + self.columns_left_out}: {fault}.{help_}", place)
 
-    def header_refusal(self, wanted: str) -> InputError:
+    def header_refusal(self, wanted: str, names: Sequence[str]) -> InputError:
         """What the first row is refused with.
 
         Args:
             wanted: what it must read.
+            names: the cells that it must have; where it differs from them first is said.
         """
         line = self.lines[0] if self.rows else 1
-        found = f"it reads “{shortened(', '.join(self.head))}”" if self.head else "it is empty"
+        head = self.head
+        found = f"it reads “{shortened(', '.join(head))}”" if head else "it is empty"
+        pairs = enumerate(zip(head, names, strict=False), 1 + self.columns_left_out)
+        other = next((pair for pair in pairs if pair[1][0].lower() != pair[1][1].lower()), None)
+        if other is not None:
+            column, (cell, name) = other
+            found += f", in column {column} “{shortened(cell)}” in place of “{name}”"
+        elif head:
+            found += f" and has {len(head)} columns"
         return InputError(
             f"{self.name}, line {line}: the header must read {wanted}; {found}.", f"{self.name}:{line}"
         )
@@ -208,6 +226,11 @@ def read_table(text: str, name: str, *, has_empty_rows: bool = False) -> Table:
     lines = lines[begin:]
     sign = _sign_between(text, lines) if told is None else told[1]
     rows, numbers = _cells(lines, sign, begin + 1, name)
+    if rows and all(len(row) == 1 and "," in row[0] for row in rows):
+        why = f"line 1 says that {sign} stands between the cells, and it is a comma. Take that line out"
+        if sign == ",":
+            why = "each row stands in one pair of quotes as a whole. Take the quotes out"
+        raise InputError(f"{name}: {why}.", f"{name}:1")
     if not has_empty_rows:
         _drop_empty(rows, notes)
     if sign == ",":
@@ -242,14 +265,16 @@ def _floats(row: list[str], *, has_gaps: bool) -> list[float] | None:
 
 def _with_one_line_end(text: str, name: str, notes: list[str]) -> str:
     text = text.replace("\r\r\n", "\n").replace("\r\n", "\n") if "\r" in text else text
-    if "\r" not in text:
-        return text
-    if "\n" not in text:
+    if "\r" in text and "\n" not in text:
         notes.append("Read with carriage returns as the ends of lines.")
-        return text.replace("\r", "\n")
-    line = text.count("\n", 0, text.index("\r")) + 1
+        text = text.replace("\r", "\n")
+    found = _OTHER_END.search(text)
+    if found is None:
+        return text
+    line = text.count("\n", 0, found.start()) + 1
     raise InputError(
-        f"{name}, line {line}: a carriage return stands within the line. End every line in the same way.",
+        f"{name}, line {line}: a {_OTHER_ENDS[found[0]]} stands within the line. End every line in the "
+        "same way, by a line feed.",
         f"{name}:{line}",
     )
 

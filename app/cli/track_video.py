@@ -31,6 +31,8 @@ def tracked(path: Path, setup: TrackingSetup) -> FootTrack:
     """
     if not path.exists():
         raise InputError(f"There is no file {path}.", str(path))
+    if path.is_dir():
+        raise InputError(f"{path} is a folder; name a film in it.", str(path))
 
     def progress(share: float) -> bool:
         rewrite_line(f"{path}: {share:4.0%} tracked")

@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+import numpy as np
+
 from core.errors import InputError
 
 LOOKED = 1 << 16
@@ -41,6 +43,10 @@ CODECS = {
 ALWAYS_READ = {"FFV1", "Motion JPEG", "MPEG-4", "VP8", "VP9"}
 """Codecs that every OpenCV with FFmpeg decodes, so that a file of them without a picture is damaged."""
 
+_REPAIR = (
+    "Copy it from the camera again; if it is no better there, a repair tool such as untrunc may rebuild the "
+    "index from another film of the same camera."
+)
 _SOUND = (b"ID3", b"fLaC", b"#!AMR")
 _MATROSKA, _AVI_FILM, _MATROSKA_CODEC = b"\x1a\x45\xdf\xa3", b"vids", re.compile(rb"V_[A-Z0-9/]{2,30}")
 
@@ -68,8 +74,7 @@ def nothing_opens(path: Path, codec: str | None, count: int) -> InputError:
     if head[4:8] == b"ftyp" and b"moov" not in _boxes(path):
         return InputError(
             f"{name} cannot be read as a video: its index (the box “moov”) is missing, because the recording "
-            "or the copy of it was broken off. Copy it from the camera again; if it is as short there, a "
-            "repair tool such as untrunc may rebuild the index from another film of the same camera.",
+            f"or the copy of it was broken off. {_REPAIR}",
             name,
         )
     return InputError(
@@ -78,17 +83,27 @@ def nothing_opens(path: Path, codec: str | None, count: int) -> InputError:
     )
 
 
-def nothing_decodes(path: Path, codec: str, count: int) -> InputError:
+def nothing_decodes(path: Path, codec: str, count: int, told_count: int) -> InputError:
     """The refusal of a file that opens and gives no picture.
 
     Args:
         path: of the file.
-        codec: four characters.
-        count: how many pictures the file holds.
+        codec: four characters; "" where OpenCV knows none.
+        count: how many pictures are found in the file.
+        told_count: how many it should hold.
     """
+    if not count and told_count > 0:
+        return InputError(
+            f"No picture of {path.name} can be found, though it should hold some: its index is damaged or "
+            f"cut off. {_REPAIR}",
+            path.name,
+        )
     if not count:
-        return InputError(f"{path.name} is a film without pictures: it lasts 0 s.", path.name)
-    name = codec_name(codec)
+        return InputError(
+            f"{path.name} is a film without pictures: it lasts 0 s. Record it again.", path.name
+        )
+    with path.open("rb") as file:
+        name = codec_name(codec or _marked_codec(file.read(LOOKED)) or "")
     if name in ALWAYS_READ:
         return InputError(
             f"None of the {count} pictures of {path.name} decodes: the file is damaged (its codec, {name}, "
@@ -154,6 +169,24 @@ def begins_later(path: Path) -> bool:
             if begin >= TRIMMED * scale:
                 return True
     return False
+
+
+def require_times(path: Path) -> None:
+    """Raises InputError where an MP4 file's index gives all of several pictures the same time."""
+    for track in _index(path).split(b"trak")[1:]:
+        at = track.find(b"stts")
+        if at < 0 or b"vide" not in track:
+            continue
+        count = int.from_bytes(track[at + 8 : at + 12], "big")
+        table = np.frombuffer(track[at + 12 : at + 12 + 8 * count], dtype=">u4")
+        pictures, lasting = table[: table.size // 2 * 2].reshape(-1, 2).T.astype(np.int64)
+        if pictures.sum() > 1 and not (pictures * lasting).any():
+            raise InputError(
+                f"The times of {path.name} cannot be used: all its pictures have the same one. Save it again "
+                "with the rate at which it was taken, here 30 pictures a second, then choose the new file: "
+                f'ffmpeg -i "{path.name}" -vf setpts=N/30/TB -r 30 -c:v libx264 -crf 16 -an converted.mp4',
+                path.name,
+            )
 
 
 def _is_sound(path: Path, head: bytes) -> bool:

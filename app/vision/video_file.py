@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from app.vision.film_faults import begins_later, nothing_decodes, nothing_opens
+from app.vision.avi_index import pictures_there
+from app.vision.film_faults import begins_later, nothing_decodes, nothing_opens, require_times
 from app.vision.frame_source import Facts, increasing_times, rate_of
 from app.vision.opencv import cv2
 from app.vision.video_io import Picture
-from core.arrays import Floats
+from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.vision.image_header import require_readable
 
@@ -23,6 +24,9 @@ TELL_EVERY = 100
 
 STRIDE = 10
 """Pictures from one place to the next at which a film goes on behind some that do not decode."""
+
+ATTEMPTS = 4
+"""How often OpenCV is asked for the next picture of a film with a gap: it ends at each that is damaged."""
 
 SAME = 5e-4
 """Times in a file that differ by less are one picture's, s."""
@@ -65,12 +69,12 @@ class VideoFile:
         times: (n,) of each picture after the first, s, increasing.
 
     Raises:
-        InputError: the file is no video, nothing in it decodes, it tells no frame rate, or has pictures that
-            are too large.
+        InputError: the file is no video, nothing in it decodes, it tells no frame rate or no times, or has
+            pictures that are too large.
     """
 
     def __init__(self, path: Path, tell: Callable[[], object] = lambda: None) -> None:
-        self._path, self._name = path, path.name
+        self._path, self._name, self._attempts = path, path.name, 1
         packets = _read_packets(path, tell)
         self._open()
         try:
@@ -89,23 +93,33 @@ class VideoFile:
     def _facts(self, packets: Packets | None, tell: Callable[[], object]) -> None:
         size = (self._number(cv2.CAP_PROP_FRAME_WIDTH), self._number(cv2.CAP_PROP_FRAME_HEIGHT))
         held = packets or Packets("", np.zeros(0))
+        require_times(self._path)
         if held.times.size:
             require_readable(*size, self._name)
         # A bare row of pictures says nothing of their number and cannot be sought in.
         told_count = self._number(cv2.CAP_PROP_FRAME_COUNT)
         self._file_times, self._is_row = held.times, told_count <= 0
-        if not self._is_row and not self._decodes_from_end_to_end():
+        told_rate = self._capture.get(cv2.CAP_PROP_FPS)
+        is_short = held.times.size < told_count and told_rate > 0
+        there = pictures_there(self._path) if is_short else None
+        has_gap = there is not None and not there.all()
+        self._attempts = ATTEMPTS if has_gap else 1
+        if not self._is_row and (has_gap or not self._decodes_from_end_to_end()):
             self._file_times = self._decoded_times(tell)
         if not self._file_times.size:
-            raise nothing_decodes(self._path, held.codec, held.times.size)
-        told_rate = self._capture.get(cv2.CAP_PROP_FPS)
-        rate = rate_of(self._file_times, told_rate)
+            raise nothing_decodes(self._path, held.codec, held.times.size, told_count)
+        times = self._file_times
+        remark = ""
+        if there is not None and has_gap:
+            times, remark = _with_gaps(held.times, times, there, told_rate)
+        rate = rate_of(times, told_rate)
         if rate is None:
             raise InputError(f"{self._name} has no frame rate; save it again with one.", self._name)
-        self._is_row |= bool((np.diff(self._file_times) <= SAME).any())
-        self.times = increasing_times(self._file_times, rate)
-        is_told = told_rate > 0 and not self._is_row
-        remark = self._remark(held.times.size, told_count / told_rate, rate) if is_told else ""
+        # Behind a gap OpenCV finds another picture where it seeks than where it reads on.
+        self._is_row |= has_gap or bool((np.diff(self._file_times) <= SAME).any())
+        self.times = increasing_times(times, rate)
+        if told_rate > 0 and not self._is_row:
+            remark = self._remark(held.times.size, told_count / told_rate, rate)
         self.facts = Facts(rate, self._file_times.size, size, remark)
         self._open_anew()
 
@@ -128,7 +142,7 @@ class VideoFile:
         """Times of all pictures that decode, in the order in which they come."""
         self._open_anew()
         times: list[float] = []
-        while self._capture.grab():
+        while self._grab_next():
             times.append(self._told())
             if len(times) % TELL_EVERY == 0:
                 tell()
@@ -208,11 +222,14 @@ class VideoFile:
     def _grab(self) -> bool:
         if self._at + 1 >= self._file_times.size:
             return False
-        if not self._capture.grab():
+        if not self._grab_next():
             return not self._is_row and self._resume()
         own = 0 if self._is_row else self._own_number()
         self._at = min(max(own, self._at + 1), self._file_times.size - 1)
         return True
+
+    def _grab_next(self) -> bool:
+        return any(self._capture.grab() for _ in range(self._attempts))
 
     def _own_number(self) -> int:
         """Number of the picture that was grabbed, by its time."""
@@ -253,6 +270,32 @@ class VideoFile:
     def _open_anew(self) -> None:
         self.close()
         self._open()
+
+
+def _with_gaps(held: Floats, decoded: Floats, there: Bools, rate: float) -> tuple[Floats, str]:
+    """The times of the pictures of an AVI file of which some are overwritten, and a remark on that.
+
+    OpenCV counts the pictures that are left and takes no notice of the missing ones.
+
+    Args:
+        held: (m,) times of the pictures that are left, as OpenCV counts them, s.
+        decoded: (n,) those of them that decode.
+        there: (k,) whether each picture of the film is left.
+        rate: of the pictures, 1/s.
+    """
+    first, last = (int(place) for place in np.flatnonzero(~there)[[0, -1]])
+    count = int(np.count_nonzero(~there))
+    missing = (
+        f"{count} of its {there.size} pictures {'is' if count == 1 else 'are'} missing, between "
+        f"{first / rate:.2f} s and {(last + 1) / rate:.2f} s: the file is damaged there."
+    )
+    if np.count_nonzero(there) == held.size:
+        numbers = np.flatnonzero(there)[np.searchsorted(held, decoded - SAME).clip(max=held.size - 1)]
+        return numbers / rate, f"{missing} The others have the times at which they were taken."
+    return decoded, (
+        f"{missing} The times of the pictures after {first / rate:.2f} s cannot be known. "
+        "Copy the film from the camera again."
+    )
 
 
 def _opened(path: Path, *settings: int) -> "cv2.VideoCapture":

@@ -9,6 +9,7 @@ from typing import Any
 from core.errors import InputError
 from core.pose_gaits.pose_problem import MOST_TURN, POSE_BOUNDS
 from core.problem.motion_problem import PLANE_HEIGHTS
+from core.text.documents import as_written
 from core.text.numbers import plain_whole
 
 CHOICES = "choices"
@@ -117,7 +118,7 @@ class Key:
         return value
 
     def _refusal(self, written: Any) -> InputError:
-        return InputError(f"{self.name} is {written!r}; it must be {self.words}.", self.name)
+        return InputError(f"{self.name} is {as_written(written)}; it must be {self.words}.", self.name)
 
 
 def _is_pair(values: Any) -> bool:

@@ -19,7 +19,7 @@ from core.errors import InputError
 from core.gait.foot_orders import named_orders
 from core.gait.gait import Orientation
 from core.robot.model import RobotModel, load_robot, robot_from_table, robot_table
-from core.text.documents import toml_content
+from core.text.documents import as_written, toml_content
 
 MOST_SEED = 2**31 - 1
 ALL_ORDERS_LEGS = 5
@@ -167,14 +167,18 @@ def space_from_table(table: Mapping[str, Any], where: str) -> AtlasSpace:
         )
     robot = table.get("robot", "deltawalker")
     if not isinstance(robot, str):
-        raise InputError(f"robot is {robot!r}; it must be the name of a robot.", "robot")
+        raise InputError(f"robot is {as_written(robot)}; it must be the name of a robot.", "robot")
     model = load_robot(robot)
     kinds = [kind.value for kind in AtlasKind]
     if table.get("kind", "fast") not in kinds:
-        raise InputError(f"kind is {table['kind']!r}; it must be one of {', '.join(kinds)}.", "kind")
+        raise InputError(
+            f"kind is {as_written(table['kind'])}; it must be one of {', '.join(kinds)}.", "kind"
+        )
     kind, seed = AtlasKind(table.get("kind", "fast")), table.get("seed", 0)
     if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed <= MOST_SEED:
-        raise InputError(f"seed is {seed!r}; it must be a whole number from 0 to {MOST_SEED}.", "seed")
+        raise InputError(
+            f"seed is {as_written(seed)}; it must be a whole number from 0 to {MOST_SEED}.", "seed"
+        )
     vary = table.get("vary")
     if not isinstance(vary, Mapping) or not vary:
         raise InputError(f"{where} has no table [vary], which says what varies.", "vary")

@@ -15,7 +15,7 @@ import numpy as np
 from core.arrays import Bools
 from core.errors import InputError
 from core.motion.contact_timeline import MAX_SAMPLES, ContactTimeline
-from core.text.documents import json_content
+from core.text.documents import as_written, json_content
 
 PHASES_FORMAT = "footfall-phases"
 WHOLE = 1e-6
@@ -73,8 +73,9 @@ def parse_phases(text: str, sample_time: float | None = None, name: str = "phase
 def _sample_time(content: dict[str, Any], sample_time: float | None, name: str) -> float:
     chosen: Any = content.get("sample_time") if sample_time is None else sample_time
     if not _is_number(chosen) or not 0.001 <= chosen <= 60:
+        words = "none" if chosen is None else as_written(chosen)
         raise InputError(
-            f"{name} is to be read with a sample time of {chosen!r}; give one between 0.001 and 60 s.",
+            f"{name} is to be read with a sample time of {words}; give one between 0.001 and 60 s.",
             f"{name}.sample_time",
         )
     return float(chosen)
@@ -86,7 +87,8 @@ def _content(text: str, name: str) -> dict[str, Any]:
         raise InputError(f'{name} is no phase list: "format" must be "{PHASES_FORMAT}".', f"{name}.format")
     if content.get("version") != 1 or isinstance(content["version"], bool):
         raise InputError(
-            f"{name} has version {content.get('version')!r}; this program reads version 1.", f"{name}.version"
+            f"{name} has version {as_written(content.get('version'))}; this program reads version 1.",
+            f"{name}.version",
         )
     return content
 
@@ -115,7 +117,7 @@ def _row(foot: Any, number: int, sample_time: float, name: str) -> list[bool]:
 def _samples(duration: Any, sample_time: float, words: str, where: str) -> int:
     """How many samples a phase has."""
     if not _is_number(duration) or not 0 < duration <= MAX_SAMPLES * 60:
-        raise InputError(f"{words}: {duration!r} must be a time in s above 0.", where)
+        raise InputError(f"{words}: {as_written(duration)} must be a time in s above 0.", where)
     samples = float(duration) / sample_time
     if round(samples) < 1 or abs(samples - round(samples)) > WHOLE:
         raise InputError(

@@ -3,12 +3,14 @@
 import json
 import re
 import tomllib
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from datetime import date, time
 from typing import Any
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.text.decoding import place_in, text_of, without_mark
 from core.text.numbers import MOST_DIGITS, number_fault, plain_number, shortened
@@ -16,7 +18,10 @@ from core.text.numbers import MOST_DIGITS, number_fault, plain_number, shortened
 _SUSPECT = re.compile(r"NaN|Infinity|[eE]\+?[0-9]{3}|[0-9]{300}")
 """What every JSON text has whose numbers are not all finite doubles."""
 _JSON_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|([-+.\w]+)', re.DOTALL)
-_LINE = re.compile(r"line ([0-9]+)")
+_NUMBER_LIKE = re.compile(r"[-+]?\.?[0-9][\w.+-]*", re.ASCII)
+_IN_NUMBERS = "+-.0123456789eE"
+_JSON_NUMBER = re.compile(r"-?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][-+]?[0-9]+)?", re.ASCII)
+_PLACE = re.compile(r"line ([0-9]+), column ([0-9]+)")
 _KEY = re.compile(r'"((?:[^"\\]|\\.)*)"\s*:|(?m:^)[ \t]*([\w.-]+)[ \t]*=')
 _TOML_WORD = re.compile(
     r'"""(?:[^\\]|\\.)*?"""|\'\'\'.*?\'\'\'|"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'|#[^\n]*'
@@ -42,7 +47,7 @@ def json_content(source: str | bytes, name: str) -> Any:
 
     Raises:
         NotJsonError: it is no JSON.
-        InputError: it is no text in UTF-8, or a number in it is not finite.
+        InputError: it is no text in UTF-8, a number in it is not finite, or an object has a key twice.
     """
     text = without_mark(text_of(source, name) if isinstance(source, bytes) else source)
     if _SUSPECT.search(text):
@@ -50,26 +55,78 @@ def json_content(source: str | bytes, name: str) -> Any:
             (match for match in _JSON_WORD.finditer(text) if _is_json_number(match[1])), name, text
         )
     try:
-        return json.loads(text)
+        return json.loads(text, object_pairs_hook=_object)
+    except _TwiceError as error:
+        twice = str(error)
+        raise InputError(
+            f"{name} has the key “{shortened(twice)}” twice in one object. Keep one of them.", name
+        ) from None
     except RecursionError as error:
         raise NotJsonError(f"{name} is not JSON: it is nested too deeply.", name) from error
     except json.JSONDecodeError as error:
-        slip = _slip(text, error.lineno)
-        if not text[: error.pos].strip() and text.strip():
-            slip = f" It begins “{shortened(text.strip())}”."
-        raise NotJsonError(f"{name} is not JSON: {error}.{slip}", name) from error
+        place = f"line {error.lineno} column {error.colno}"
+        raise NotJsonError(
+            f"{name} is not JSON: {error.msg}: {place}.{_json_slip(text, error)}", name
+        ) from error
 
 
-def json_numbers(content: Any) -> Floats:
-    """Numbers of JSON content as an array.
+class _TwiceError(Exception):
+    """An object has a key twice."""
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    content = dict(pairs)
+    if len(content) < len(pairs):
+        raise _TwiceError(Counter(key for key, _ in pairs).most_common(1)[0][0])
+    return content
+
+
+def _json_slip(text: str, error: json.JSONDecodeError) -> str:
+    """What may have spoilt a text that is no JSON; empty where nothing can be said."""
+    if not text[: error.pos].strip() and text.strip() and text.strip()[0] not in "+.0123456789-":
+        return f" It begins “{shortened(text.strip())}”."
+    # The parser stops within a number that it cannot read.
+    before = text[max(error.pos - MOST_DIGITS, 0) : error.pos]
+    word = _NUMBER_LIKE.match(text, error.pos - len(before) + len(before.rstrip(_IN_NUMBERS)))
+    if word is not None and not _JSON_NUMBER.fullmatch(word[0]) and "_" not in word[0]:
+        return f" “{shortened(word[0])}” is no number of JSON: write plain decimals such as 0.4."
+    return _slip(text, error.lineno, error.colno)
+
+
+def json_numbers(content: Mapping[str, Any], key: str) -> Floats:
+    """The numbers of a key of JSON content as an array.
 
     Raises:
-        ValueError: there are texts among them, such as numbers in quotes, or lists of other lengths.
+        ValueError: the key is missing, or has texts, such as numbers in quotes, or lists of other lengths.
     """
-    array = np.array(content)
+    if key not in content:
+        raise ValueError(f"“{key}” is missing")
+    try:
+        array = np.array(content[key])
+    except ValueError:
+        raise ValueError(f"the lists of “{key}” differ in length") from None
     if array.size and array.dtype.kind not in "biuf":
-        raise ValueError("what must be numbers has other values, such as numbers in quotes")
+        raise ValueError(f"“{key}” must have numbers and has other values, such as numbers in quotes")
     return array.astype(np.float64)
+
+
+def json_truths(content: Mapping[str, Any], key: str) -> Bools:
+    """The same for true and false, which may be written as 1 and 0.
+
+    Raises:
+        ValueError: as in `json_numbers`, or a value is another number.
+    """
+    numbers = json_numbers(content, key)
+    for value in numbers[(numbers != 0) & (numbers != 1)][:1]:
+        raise ValueError(f"“{key}” has {value:g}; it may have 0 and 1, or true and false")
+    return numbers.astype(np.bool_)
+
+
+def as_written(value: Any) -> str:
+    """A value of JSON or TOML as a person wrote it."""
+    if isinstance(value, date | time):
+        return f"a date or time ({value.isoformat()})"
+    return shortened(json.dumps(value, ensure_ascii=False, default=str))
 
 
 def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
@@ -88,8 +145,12 @@ def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        line = _LINE.search(str(error))
-        slip = "" if line is None else _slip(text, int(line[1]))
+        place = _PLACE.search(str(error))
+        if place is not None and (key := _given_twice(text, str(error), int(place[1]))):
+            raise InputError(
+                f"{name}, line {place[1]}: {key} is given twice. Keep one of them.", f"{name}:{place[1]}"
+            ) from error
+        slip = "" if place is None else _slip(text, int(place[1]), int(place[2]))
         hint = " It seems to be JSON." if text.lstrip().startswith("{") else slip
         raise InputError(f"{name} is no TOML file: {error}.{hint}", name) from error
     except RecursionError as error:
@@ -99,6 +160,14 @@ def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
         raise InputError(f"{name} is no TOML file: {error}.", name) from error
     _require_plain(_toml_numbers(text), name, text)
     return content
+
+
+def _given_twice(text: str, fault: str, line: int) -> str:
+    """What a TOML text has a second time by its parser's message; empty where that says something else."""
+    if fault.startswith("Cannot overwrite"):
+        key = re.match(r"[ \t]*([\w.\"'-]+)[ \t]*=", text.split("\n")[line - 1])
+        return "the key here" if key is None else f"the key {shortened(key[1])}"
+    return "the table here" if re.match(r"Cannot declare .* twice", fault) else ""
 
 
 def _toml_numbers(text: str) -> Iterator[re.Match[str]]:
@@ -119,12 +188,16 @@ def _is_json_number(word: str | None) -> bool:
     return word is not None and (word.lstrip("-") in ("NaN", "Infinity") or word.lstrip("-")[:1].isdigit())
 
 
-def _slip(text: str, line: int) -> str:
-    """What may have spoilt a line that cannot be read; empty where it has nothing of the kind."""
+def _slip(text: str, line: int, column: int) -> str:
+    """What may have spoilt the place that cannot be read; empty where it has nothing of the kind."""
     found = text.split("\n")[line - 1]
     if re.search(r"[0-9]_[0-9]", found):
         return " Write numbers without _."
-    return " Write decimal points, not commas." if re.search(r"[0-9],[0-9]", found) else ""
+    # The parser stops at the comma or in the digits behind it.
+    is_comma = re.search(r"[0-9],[0-9]*\Z", found[:column], re.ASCII) and re.match(
+        "[0-9,]", found[column - 1 :]
+    )
+    return " Write decimal points, not commas." if is_comma else ""
 
 
 def _require_plain(words: Iterator[re.Match[str]], name: str, text: str) -> None:

@@ -1,7 +1,8 @@
 """From the text of a CSV to rows of cells, in whatever dialect a spreadsheet or pandas wrote it.
 
 Read is what is unambiguous: commas, or in every row semicolons, tabs or blanks, then also with a decimal
-comma; quotes; a first column that counts the rows; empty columns at the right, and empty rows at the end.
+comma; quotes; a first column that counts the rows or has no name; empty columns at the right, and
+empty rows at the end.
 What is unusual for the lab's programs is said in `notes`.
 """
 
@@ -19,12 +20,23 @@ from core.errors import InputError
 from core.text.decoding import MARK, without_mark
 from core.text.numbers import number_fault, plain_number, reads_plainly, shortened
 
-_SEP_LINE = re.compile(r'"?sep=([,;\t| ])"?[ \t]*')
+_SEP_LINE = re.compile(r'"?sep=([,;\t| ])"?[ \t]*', re.IGNORECASE)
 """A first line by which Excel is told what stands between the cells."""
+_OTHER_ENDS = {
+    "\r": "carriage return",
+    "\x0c": "form feed",
+    "\x85": "next line (U+0085)",
+    "\u2028": "line separator (U+2028)",
+    "\u2029": "paragraph separator (U+2029)",
+}
+_OTHER_END = re.compile(f"[{''.join(_OTHER_ENDS)}]")
 _SIGN_NAMES = {";": ";", "\t": "tabs", " ": "blanks", ",": ",", "|": "|"}
 _BEHIND_COMMA = re.compile(r"[0-9]+(?:[eE][+-]?[0-9]+)?")
 _WAY_OUT = "Write decimal points, or ; between the numbers"
 _COUNTED = "The first column counts the rows and was left out."
+_NAMELESS = "The first column has no name and was left out."
+_SECOND = re.compile(r"1|(?:.*\D)?2")
+"""The name of a second column, so that the name that is missing before it is the first one's."""
 _OTHERS = "other numbers have a decimal comma; use one of them"
 _SEPARATE = " Separate the numbers by commas, and write decimal points."
 
@@ -99,17 +111,27 @@ class Table:
             fault += "; the row is empty, delete it"
         elif row > 0 and len(self.rows[row]) > 1 and all(one.strip()[:1].isalpha() for one in self.rows[row]):
             fault += "; only the first line may hold words"
-        help_ = _SEPARATE if set(cell.strip()) & set("; \t") else ""
+        parts = re.split(r"[; \t]+", cell.strip("; \t"))
+        help_ = _SEPARATE if len(parts) > 1 and all(map(_is_plain, parts)) else ""
         return InputError(f"{place}, column {column + 1 + self.columns_left_out}: {fault}.{help_}", place)
 
-    def header_refusal(self, wanted: str) -> InputError:
+    def header_refusal(self, wanted: str, names: Sequence[str]) -> InputError:
         """What the first row is refused with.
 
         Args:
             wanted: what it must read.
+            names: the cells that it must have; where it differs from them first is said.
         """
         line = self.lines[0] if self.rows else 1
-        found = f"it reads “{shortened(', '.join(self.head))}”" if self.head else "it is empty"
+        head = self.head
+        found = f"it reads “{shortened(', '.join(head))}”" if head else "it is empty"
+        pairs = enumerate(zip(head, names, strict=False), 1 + self.columns_left_out)
+        other = next((pair for pair in pairs if pair[1][0].lower() != pair[1][1].lower()), None)
+        if other is not None:
+            column, (cell, name) = other
+            found += f", in column {column} “{shortened(cell)}” in place of “{name}”"
+        elif head:
+            found += f" and has {len(head)} columns"
         return InputError(
             f"{self.name}, line {line}: the header must read {wanted}; {found}.", f"{self.name}:{line}"
         )
@@ -148,9 +170,36 @@ class Table:
         if not _counts([row[0] for row in self.rows[first:]]):
             return self
         is_headed = first > 0 and len(self.rows[0]) == len(self.rows[first])
-        rows = [row[1:] if is_headed or index >= first else row for index, row in enumerate(self.rows)]
+        return self._without_first_column(0 if is_headed else first, _COUNTED)
+
+    def without_index(self) -> "Table":
+        """The table without a first column that its header shows to be an index: it has no name there.
+
+        Raises:
+            InputError: the name that is missing may be that of a column of numbers.
+        """
+        if len(self.rows) < 2:
+            return self
+        head, cells = self.head, [row[0] for row in self.rows[1:]]
+        is_one_more = len(self.rows) > 3 and {len(row) for row in self.rows[1:]} == {len(head) + 1}
+        is_nameless = len(head) > 1 and head[0] in ("", "Unnamed: 0") and _are_names(head[1:])
+        if (is_nameless or is_one_more) and _counts(cells):
+            return self._without_first_column(0 if is_nameless else 1, _COUNTED)
+        if not is_nameless:
+            return self
+        if head[0] == "" and _SECOND.fullmatch(head[1]):
+            place = f"{self.name}:{self.lines[0]}"
+            raise InputError(
+                f"{place}, column 1: the first column has no name, so that it may be an index or numbers. "
+                "Write its name, or take the column out.",
+                place,
+            )
+        return self._without_first_column(0, _NAMELESS)
+
+    def _without_first_column(self, first: int, note: str) -> "Table":
+        rows = [row[1:] if index >= first else row for index, row in enumerate(self.rows)]
         left_out = self.columns_left_out + 1
-        return replace(self, rows=rows, notes=(*self.notes, _COUNTED), columns_left_out=left_out)
+        return replace(self, rows=rows, notes=(*self.notes, note), columns_left_out=left_out)
 
 
 def read_table(text: str, name: str, *, has_empty_rows: bool = False) -> Table:
@@ -177,6 +226,11 @@ def read_table(text: str, name: str, *, has_empty_rows: bool = False) -> Table:
     lines = lines[begin:]
     sign = _sign_between(text, lines) if told is None else told[1]
     rows, numbers = _cells(lines, sign, begin + 1, name)
+    if rows and all(len(row) == 1 and "," in row[0] for row in rows):
+        why = f"line 1 says that {sign} stands between the cells, and it is a comma. Take that line out"
+        if sign == ",":
+            why = "each row stands in one pair of quotes as a whole. Take the quotes out"
+        raise InputError(f"{name}: {why}.", f"{name}:1")
     if not has_empty_rows:
         _drop_empty(rows, notes)
     if sign == ",":
@@ -187,7 +241,7 @@ def read_table(text: str, name: str, *, has_empty_rows: bool = False) -> Table:
         notes.insert(0, f"Read with {_SIGN_NAMES[sign]} between the numbers{comma}.")
     simple_from = sys.maxsize if has_decimal_comma else _simple_from(text)
     table = Table(name, rows, numbers, tuple(notes), has_decimal_comma, simple_from)
-    return table.without_count() if _has_count(rows) else table
+    return table.without_index()
 
 
 def _simple_from(text: str) -> int:
@@ -211,14 +265,16 @@ def _floats(row: list[str], *, has_gaps: bool) -> list[float] | None:
 
 def _with_one_line_end(text: str, name: str, notes: list[str]) -> str:
     text = text.replace("\r\r\n", "\n").replace("\r\n", "\n") if "\r" in text else text
-    if "\r" not in text:
-        return text
-    if "\n" not in text:
+    if "\r" in text and "\n" not in text:
         notes.append("Read with carriage returns as the ends of lines.")
-        return text.replace("\r", "\n")
-    line = text.count("\n", 0, text.index("\r")) + 1
+        text = text.replace("\r", "\n")
+    found = _OTHER_END.search(text)
+    if found is None:
+        return text
+    line = text.count("\n", 0, found.start()) + 1
     raise InputError(
-        f"{name}, line {line}: a carriage return stands within the line. End every line in the same way.",
+        f"{name}, line {line}: a {_OTHER_ENDS[found[0]]} stands within the line. End every line in the "
+        "same way, by a line feed.",
         f"{name}:{line}",
     )
 
@@ -302,22 +358,23 @@ def _filled(row: list[str]) -> int:
     return next((place for place in range(len(row), 0, -1) if row[place - 1].strip()), 0)
 
 
-def _has_count(rows: list[list[str]]) -> bool:
-    """Whether a first column is there that only counts: without a name, or one more than there are names."""
-    if len(rows) < 2:
-        return False
-    names = _filled(rows[0])
-    is_nameless = rows[0][0].strip() in ("", "Unnamed: 0") and names > 1
-    is_one_more = len(rows) > 3 and {len(row) for row in rows[1:]} == {names + 1}
-    return (is_nameless or is_one_more) and _counts([row[0] for row in rows[1:]])
+def _are_names(cells: list[str]) -> bool:
+    """Whether cells of a header are words, or count 0, 1, 2, … as the lab's files do."""
+    return not any(map(_is_plain, cells)) or (_counts(cells) and cells[0] in ("0", "1"))
 
 
 def _counts(cells: list[str]) -> bool:
-    """Whether cells are 0, 1, 2, … or 1, 2, 3, …."""
-    if not cells or cells[0].strip() not in ("0", "1"):
+    """Whether cells are whole numbers, each as much more than the one before: 0, 1, 2, … or 0.0, 2.0, …."""
+    try:
+        values = [plain_number(cell.replace(",", ".")) for cell in cells]
+    except ValueError:
         return False
-    first = int(cells[0])
-    return [cell.strip() for cell in cells] == [str(first + index) for index in range(len(cells))]
+    if not values or any(value % 1 for value in values):
+        return False
+    if len(values) == 1:
+        return values[0] in (0, 1)
+    steps = set(np.diff(values).tolist())
+    return len(steps) == 1 and min(steps) > 0
 
 
 def _is_plain(cell: str) -> bool:

@@ -102,9 +102,9 @@ def format_track_csv(track: FootTrack) -> str:
 
 def _feet_of_header(table: Table) -> int:
     feet = len(table.head) // 2
-    wanted = [f"{axis}_D{foot}" for foot in range(1, feet + 1) for axis in "XY"]
-    if not feet or table.head != wanted:
-        raise table.header_refusal("X_D1, Y_D1, X_D2, Y_D2, …")
+    wanted = [f"{axis}_D{foot}" for foot in range(1, max(feet, 2) + 1) for axis in "XY"][: 2 * feet or None]
+    if not feet or [cell.upper() for cell in table.head] != wanted:
+        raise table.header_refusal("X_D1, Y_D1, X_D2, Y_D2, …", wanted)
     return feet
 
 

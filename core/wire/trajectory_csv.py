@@ -23,7 +23,7 @@ from core.arrays import Bools, Floats, frozen_floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory, difference_velocities, turned_about_body
 from core.text.decoding import without_mark
-from core.text.documents import NotJsonError, json_content, json_numbers
+from core.text.documents import NotJsonError, as_written, json_content, json_numbers, json_truths
 from core.text.numbers import plain_number
 from core.text.tables import Table, read_table
 from core.wire.waypoints import is_waypoint_text
@@ -184,9 +184,9 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
         layout = CsvLayout(header, has_velocities=rows == 2 * size)
         read = _assemble(table, legs, companion, [*cells.notes, *assumptions], layout)
         return replace(read, is_usual=not cells.notes)
-    except (KeyError, TypeError, ValueError, OverflowError) as error:
+    except (ValueError, OverflowError) as error:
         raise InputError(
-            f"The companion of {name} does not fit it: {error!r}. Write the file anew.", name
+            f"The companion of {name} does not fit it: {error}. Write the file anew.", name
         ) from error
 
 
@@ -213,8 +213,10 @@ def _leg_count(companion: dict[str, Any] | None, rows: int, name: str) -> int:
     if companion is None:
         return next((legs for legs in RINGS if rows in (3 + 3 * legs, 6 + 6 * legs)), RINGS[0])
     legs = companion.get("legs")
-    if not isinstance(legs, int) or not 1 <= legs <= 100:
-        raise InputError(f"The companion of {name} says {legs!r} legs; it must be a whole number.", name)
+    if isinstance(legs, bool) or not isinstance(legs, int) or not 1 <= legs <= 100:
+        raise InputError(
+            f"The companion of {name} says {as_written(legs)} legs; it must be a whole number.", name
+        )
     return legs
 
 
@@ -228,7 +230,7 @@ def _assemble(
     n, size = table.shape[1], 3 + 3 * legs
     columns = table.T
     body, feet = columns[:, :3], columns[:, 3:size].reshape(n, legs, 3)
-    times = json_numbers(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL)
+    times = json_numbers(companion or {"times": np.arange(n) * DEFAULT_INTERVAL}, "times")
     if layout.has_velocities:
         body_velocity = columns[:, size : size + 3]
         feet_velocity = columns[:, size + 3 :].reshape(n, legs, 3)
@@ -236,7 +238,7 @@ def _assemble(
         body_velocity = difference_velocities(times, body)
         feet_velocity = difference_velocities(times, feet)
         assumptions.append("Velocities are missing; they are differences of the positions.")
-    contact = json_numbers(companion["contact"]).astype(np.bool_) if companion else standing_feet(feet)
+    contact = json_truths(companion, "contact") if companion else standing_feet(feet)
     trajectory = Trajectory(times, body, np.zeros(n), feet, contact, body_velocity, feet_velocity)
     if companion:
         trajectory = _headed(trajectory, companion)
@@ -246,10 +248,10 @@ def _assemble(
 
 def _headed(trajectory: Trajectory, companion: dict[str, Any]) -> Trajectory:
     """The motion in the world, with the heading that the companion states."""
-    heading = json_numbers(companion["heading"])
+    heading = json_numbers(companion, "heading")
     axes = companion.get("feet_axes", WORLD_AXES)
-    if axes not in VERSIONS:
-        raise ValueError(f"feet_axes is {axes!r}; it must be one of {', '.join(VERSIONS)}")
+    if not isinstance(axes, str) or axes not in VERSIONS:
+        raise ValueError(f"feet_axes is {as_written(axes)}; it must be one of {', '.join(VERSIONS)}")
     if axes == WORLD_AXES:
         return replace(trajectory, heading=heading)
     return turned_about_body(trajectory, frozen_floats(heading, (trajectory.knot_count,), "heading"))
@@ -283,10 +285,12 @@ def _companion(text: str | None, csv_text: str, name: str) -> tuple[dict[str, An
     if text is None:
         return None, [f"{name} has no companion file; assumed: {assumed}"]
     try:
-        content: dict[str, Any] = json_content(text, f"The companion of {name}")
+        content = json_content(text, f"The companion of {name}")
+        if not isinstance(content, dict):
+            return None, [f"The companion of {name} is no JSON object (“{{…}}”); assumed: {assumed}"]
         if content.get("format") != COMPANION_FORMAT or content.get("version") not in VERSIONS.values():
             return None, [f"The companion of {name} is of an unknown format; assumed: {assumed}"]
-    except (NotJsonError, AttributeError):
+    except NotJsonError:
         return None, [f"The companion of {name} is not JSON; assumed: {assumed}"]
     if content.get("csv_sha256") != _digest(csv_text):
         return None, [f"The companion of {name} belongs to another version of it; assumed: {assumed}"]

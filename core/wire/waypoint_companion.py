@@ -7,17 +7,17 @@ and body have to be found from the strokes.
 import hashlib
 import json
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
-from core.arrays import Floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.model import RobotModel
-from core.text.documents import NotJsonError, json_content, json_numbers
+from core.text.documents import NotJsonError, json_content, json_numbers, json_truths
 from core.wire.waypoints import Waypoints
 
+Kind = TypeVar("Kind")
 FORMAT = "footfall-waypoints"
 SAME_STROKES = 1e-6
 """Strokes of file and motion differ by no more than what four decimals of a millimetre round, m."""
@@ -85,14 +85,14 @@ def parse_waypoint_companion(text: str, csv_text: str, name: str) -> WaypointCom
         return f"The companion of {name} belongs to another version of it, so it is left aside."
     try:
         return WaypointCompanion(
-            robot=str(content["robot"]),
-            stop_bound=None if content["stop_bound"] is None else float(json_numbers(content["stop_bound"])),
-            origin=dict(content["origin"]),
-            motion=None if content["motion"] is None else _motion(content["motion"]),
+            robot=_of_kind(content, "robot", str, "a name"),
+            stop_bound=_bound(content),
+            origin=_of_kind(content, "origin", dict, "an object"),
+            motion=_motion(content),
         )
-    except (KeyError, TypeError, ValueError) as error:
+    except (ValueError, OverflowError) as error:
         raise InputError(
-            f"The companion of {name} is damaged: {error!r}. Write the file anew, or delete the companion.",
+            f"The companion of {name} is damaged: {error}. Write the file anew, or delete the companion.",
             name,
         ) from error
 
@@ -119,12 +119,28 @@ def require_same_strokes(model: RobotModel, motion: Trajectory, waypoints: Waypo
         )
 
 
-def _motion(content: dict[str, Any]) -> Trajectory:
-    def numbers(key: str) -> Floats:
-        return json_numbers(content[key])
+def _of_kind(content: dict[str, Any], key: str, kind: type[Kind], words: str) -> Kind:
+    value = content.get(key)
+    if not isinstance(value, kind):
+        raise ValueError(f"“{key}” must be {words}")
+    return value
 
-    contact = numbers("contact").astype(np.bool_)
-    return Trajectory(numbers("times"), numbers("body"), numbers("heading"), numbers("feet"), contact)
+
+def _bound(content: dict[str, Any]) -> float | None:
+    if content.get("stop_bound", "") is None:
+        return None
+    bound = json_numbers(content, "stop_bound")
+    if bound.ndim:
+        raise ValueError("“stop_bound” must be one number or null")
+    return float(bound)
+
+
+def _motion(content: dict[str, Any]) -> Trajectory | None:
+    if content.get("motion", "") is None:
+        return None
+    motion = _of_kind(content, "motion", dict, "an object or null")
+    times, body, heading, feet = (json_numbers(motion, key) for key in ("times", "body", "heading", "feet"))
+    return Trajectory(times, body, heading, feet, json_truths(motion, "contact"))
 
 
 def _digest(text: str) -> str:

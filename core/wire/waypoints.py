@@ -11,7 +11,9 @@ from core.errors import InputError
 from core.text.decoding import without_mark
 from core.text.tables import Table, read_table
 
-_BEGINNING = re.compile(r'\s*(?:"?sep=.[^\r\n]*[\r\n]+)?(?:[^,;\t\r\n]*[,;\t])?\s*"?duration_s\b')
+_BEGINNING = re.compile(
+    r'\s*(?:"?sep=.[^\r\n]*[\r\n]+)?(?:[^,;\t\r\n]*[,;\t])?\s*"?duration_s\b', re.IGNORECASE
+)
 """How a waypoint file begins; a column that counts the rows may stand first."""
 MM_DECIMALS = 4
 """Decimals of a millimetre in files and on the wire (docs/firmware.md)."""
@@ -109,10 +111,12 @@ def parse_waypoint_csv(text: str, legs: int = 4, name: str = "waypoint file") ->
 
 def _legs_of_header(table: Table, legs: int | None) -> int:
     """The number of legs, which the header confirms."""
-    head = table.head
+    head = [cell.lower() for cell in table.head]
     found = (len(head) - 1) // 3
     if found < 1 or found != (legs or found) or head != _header(found).split(","):
-        raise table.header_refusal(_header(legs or 4) + ("" if legs else ", with three motors a foot"))
+        wanted = _header(legs or 4)
+        more = "" if legs else ", with three motors a foot"
+        raise table.header_refusal(wanted + more, _header(legs or max(found, 4)).split(","))
     return found
 
 

@@ -91,6 +91,15 @@ def test_a_setup_that_does_not_fit_is_refused(
     assert words in said
 
 
+def test_a_folder_in_place_of_a_film_is_named(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    folder = tmp_path / "walk.mp4"
+    folder.mkdir()
+    words = ("trial", str(folder), "--setup", setup_file(tmp_path), "--expect", "1")
+    status, _, said = run(capsys, *words)
+    assert status == 2
+    assert "walk.mp4 is a folder; name a film in it." in said
+
+
 def test_feet_whose_colours_are_exchanged_stand_elsewhere_than_the_plans() -> None:
     from app.trials.track_source import fit_content
     from core.trials.alignment import align

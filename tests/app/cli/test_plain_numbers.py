@@ -151,7 +151,7 @@ REFUSED: list[tuple[str, str | bytes, str]] = [
         "iterations: Input should be a whole number",
     ),
     ("a.json", GAIT.encode("utf-16"), " is not text in UTF-8: it is text in UTF-16. Save it as UTF-8"),
-    ("a.json", TRACK, "is not JSON: Expecting value: line 1 column 1 (char 0). It begins “X_D1"),
+    ("a.json", TRACK, "is not JSON: Expecting value: line 1 column 1. It begins “X_D1"),
     ("a.setup", put(SETUP, "640", "NaN"), ", line 3, column 10 (size): NaN is not a finite number."),
     ("a.setup", put(SETUP, "640", '"640"'), "size.0: Input should be a valid integer."),
     ("a.setup", put(SETUP, "640", "6_40"), " Write numbers without _."),

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from app.vision import film_faults
+from app.vision.avi_index import pictures_there
 from app.vision.film_faults import begins_later, codec_name
 from app.vision.frame_source import increasing_times, rate_of
 from app.vision.video_file import VideoFile
@@ -29,6 +30,7 @@ from tests.support.trials.films import (
     turned,
     with_codec,
     without_pictures,
+    without_times,
 )
 from tests.support.trials.retimed import retimed
 
@@ -49,7 +51,13 @@ REFUSED: list[tuple[str, str, Change, str]] = [
     ("avi", "MJPG", lambda film: film.replace(b"vids", b"auds"), "sound and no pictures"),
     ("mp4", "mp4v", lambda film: b"0.1, 0.2\n" * 200, "holds text. Choose the film itself"),
     ("mp4", "mp4v", lambda film: b"", "walk.mp4 is empty; choose a video"),
-    ("mp4", "mp4v", without_pictures, "film without pictures: it lasts 0 s"),
+    ("mp4", "mp4v", without_pictures, "film without pictures: it lasts 0 s. Record it again"),
+    ("mp4", "mp4v", lambda film: film[:-100], f"index is damaged or cut off. {AGAIN}.* untrunc"),
+    ("mp4", "mp4v", lambda film: film.replace(b"stts", b"xxxx"), f"index is damaged or cut off. {AGAIN}"),
+    ("mp4", "mp4v", lambda film: film.replace(b"stsz", b"xxxx"), f"index is damaged or cut off. {AGAIN}"),
+    ("mp4", "mp4v", lambda film: film.replace(b"stco", b"xxxx"), f"index is damaged or cut off. {AGAIN}"),
+    ("mp4", "mp4v", without_times, "all its pictures have the same one.*ffmpeg -i"),
+    ("avi", "MJPG", lambda film: film.replace(b"MJPG", b"I420"), f"codec is “I420”, .*{CONVERT}"),
     ("mp4", "mp4v", lambda film: bytes(range(256)) * 40, rf"its kind is not known here.*{CONVERT}"),
 ]
 
@@ -155,6 +163,38 @@ def test_a_film_that_was_cut_off_or_is_damaged_is_read_as_far_as_it_decodes(
     assert read.picture(0).shape == (SIZE[1], SIZE[0], 3)
     with pytest.raises(InputError, match="ends before picture"):
         read.picture(read.facts.count)
+    read.close()
+
+
+def with_hole(content: bytes, begin: float, end: float) -> bytes:
+    """An AVI file in which a part of the pictures is overwritten with zeros."""
+    first, last = content.find(b"movi") + 4, content.rfind(b"idx1")
+    hole = [first + int(share * (last - first)) for share in (begin, end)]
+    return content[: hole[0]] + bytes(hole[1] - hole[0]) + content[hole[1] :]
+
+
+@pytest.mark.parametrize(("begin", "end"), [(0.02, 0.1), (1 / 3, 1 / 2), (0.5, 0.52), (0.2, 0.9), (0.9, 1.0)])
+def test_pictures_of_an_avi_behind_a_hole_keep_their_times(begin: float, end: float, tmp_path: Path) -> None:
+    path = tmp_path / "walk.avi"
+    path.write_bytes(with_hole(film(path, "MJPG"), begin, end))
+    read = VideoFile(path)
+    there = pictures_there(path)
+    assert there is not None
+    missing = np.flatnonzero(~there)
+    assert re.match(rf"{missing.size} of its 60 pictures (is|are) missing, between", read.facts.remark)
+    cut = missing[0] - 1  # the hole may begin in it
+    own = {round(time * RATE): number_of(picture) for time, picture in read.pictures()}
+    assert own.keys() | {cut} == {*np.flatnonzero(there).tolist()}
+    assert all(place == number for place, number in own.items() if place != cut)
+    assert number_of(read.picture(2)) == own[round(read.times[2] * RATE)]
+    read.close()
+
+
+def test_times_behind_a_hole_that_cannot_be_known_are_said_to_be_unknown(tmp_path: Path) -> None:
+    path = tmp_path / "walk.avi"
+    path.write_bytes(with_hole(film(path, "MJPG"), 0.0, 0.1))
+    read = VideoFile(path)
+    assert "The times of the pictures after 0.00 s cannot be known" in read.facts.remark
     read.close()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import date
 from typing import Any
 
 import numpy as np
@@ -78,6 +79,10 @@ def test_every_order_of_four_legs_begins_with_foot_1() -> None:
         ({"robot": "spot", **table()}, "robot", "There is no robot “spot”"),
         ({"kind": "quick", **table()}, "kind", "it must be one of fast, drawn"),
         ({"seed": -1, **table()}, "seed", "a whole number from 0"),
+        ({"seed": True, **table()}, "seed", "seed is true; it"),
+        ({"seed": "1", **table()}, "seed", 'seed is "1"; it'),
+        ({"seed": date(2026, 1, 2), **table()}, "seed", "seed is a date or time (2026-01-02); it"),
+        (table(margin=["a", True]), "margin", 'margin is "a"; it must be a number of m'),
         ({"colour": 1, **table()}, "colour", "has the unknown key colour"),
         ({"robot": "deltawalker"}, "vary", "has no table [vary]"),
         ({"kind": "drawn", **table(overlap=[True, False])}, "overlap", "leave it out"),

@@ -72,6 +72,38 @@ def test_what_is_no_json_says_what_was_found(text: str, words: str) -> None:
         json_content(text, "mine.json")
 
 
+@pytest.mark.parametrize("number", ["+0.4", ".4", "-.4", "0.", "00.4", "0x1", "0.4.1", "1e"])
+@pytest.mark.parametrize("text", ['{{"a": [1, 2],\n "t": {}, "b": 1}}', "[{}]", "{}"])
+def test_what_is_no_number_of_json_is_quoted_with_the_way_out(number: str, text: str) -> None:
+    with pytest.raises(NotJsonError) as refusal:
+        json_content(text.format(number), "mine.json")
+    words = f"“{number}” is no number of JSON: write plain decimals such as 0.4."
+    assert str(refusal.value).endswith(words)
+    assert "(char" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("text", ['{"t": 0.4, "t": 0.8}', '[{"a": {"b": 1, "t": 0, "t": 0}}]'])
+def test_a_json_key_that_is_given_twice_is_named(text: str) -> None:
+    with pytest.raises(InputError, match=r"mine\.json has the key “t” twice in one object"):
+        json_content(text, "mine.json")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("seed = 1\nseed = [1,2]\n", "mine.toml, line 2: the key seed is given twice. Keep one of them."),
+        ("a.b = 1\na.b = 2,5\n", "mine.toml, line 2: the key a.b is given twice. Keep one of them."),
+        ("[a]\nx = 1\n[a]\n", "mine.toml, line 3: the table here is given twice. Keep one of them."),
+        ("a = [1,2] x\n", "(at line 1, column 11)."),
+        ("a = 0,4\n", "(at line 1, column 6). Write decimal points, not commas."),
+    ],
+)
+def test_what_toml_has_twice_is_named_and_commas_only_where_they_are(text: str, words: str) -> None:
+    with pytest.raises(InputError) as refusal:
+        toml_content(text, "mine.toml")
+    assert str(refusal.value).endswith(words)
+
+
 TOML = """# 1_0, nan and 0x10 in a comment
 title = "1_0 # nan"
 multi = \"\"\"

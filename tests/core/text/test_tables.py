@@ -145,6 +145,29 @@ def test_a_count_is_no_first_sample_of_a_trajectory(has_header: bool, begin: int
     assert notes == (COUNTED,)
 
 
+NAMELESS = "The first column has no name and was left out."
+
+
+@pytest.mark.parametrize("kind", TEXTS)
+@pytest.mark.parametrize(
+    ("cell", "note"),
+    [("{}.0", COUNTED), ("{}0", COUNTED), ("{}e1", COUNTED), ("0.{}", NAMELESS), ("row {}", NAMELESS)],
+)
+def test_an_index_is_left_out_whatever_it_holds(kind: str, cell: str, note: str) -> None:
+    head, *lines = TEXTS[kind].splitlines()
+    text = "\n".join([f",{head}", *(f"{cell.format(row)},{line}" for row, line in enumerate(lines))])
+    expected, _ = READERS[kind](TEXTS[kind])
+    values, notes = READERS[kind](text)
+    assert np.array_equal(values, expected)
+    assert notes == (note,)
+
+
+@pytest.mark.parametrize("head", [",Column2,Column3,Column4", ",1,2,3"])
+def test_a_first_column_whose_name_is_missing_is_refused(head: str) -> None:
+    with pytest.raises(InputError, match="the first column has no name"):
+        read_trajectory(f"{head}\n{numbers(30, 4)}")
+
+
 def test_numbers_that_count_under_a_name_of_their_own_are_numbers() -> None:
     text = "X_D1,Y_D1\n0,5\n1,5\n2,5\n3,5\n"
     assert read_track_csv(text).track.feet[:, 0, 0].tolist() == [0.0, 0.01, 0.02, 0.03]
@@ -239,6 +262,58 @@ def test_a_missing_header_is_said_with_what_stands_in_its_place() -> None:
 def test_columns_are_counted_as_in_the_file_where_one_was_left_out() -> None:
     with pytest.raises(InputError, match=r"mine\.csv:4, column 3: “x” is not a number"):
         read_track(counted(0, "")(in_row(4, "x", 2)(TEXTS["track"])))
+
+
+BROKEN_FORMS: dict[str, tuple[Callable[[str], str], str]] = {
+    "line separators": (
+        lambda t: t.replace("\n", "\u2028"),
+        r"line 1: a line separator \(U\+2028\) stands within the line",
+    ),
+    "next lines": (lambda t: t.replace("\n", "\x85"), r"line 1: a next line \(U\+0085\) stands within"),
+    "form feed": (lambda t: t.replace("\n", "\n\f", 2), r"line 2: a form feed stands within the line"),
+    "rows in quotes": (
+        lambda t: "".join(f'"{line}"\n' for line in t.splitlines()),
+        r"each row stands in one pair of quotes as a whole\. Take the quotes out",
+    ),
+    "sep=; over commas": (
+        lambda t: "sep=;\n" + t,
+        r"line 1 says that ; stands between the cells, and it is a comma\. Take that line out",
+    ),
+    "comment": (in_row(4, "5.5 # c"), r"mine\.csv:4, column 1: “5\.5 # c” is not a number\.$"),
+    "unit": (in_row(4, "5.5 mm"), r"mine\.csv:4, column 1: “5\.5 mm” is not a number\.$"),
+}
+
+
+@pytest.mark.parametrize("kind", TEXTS)
+@pytest.mark.parametrize("form", BROKEN_FORMS)
+def test_forms_that_cannot_be_read_are_named(form: str, kind: str) -> None:
+    change, words = BROKEN_FORMS[form]
+    with pytest.raises(InputError, match=words):
+        READERS[kind](change(TEXTS[kind]))
+
+
+@pytest.mark.parametrize("kind", TEXTS)
+def test_sep_in_capitals_and_names_in_other_letters_are_read(kind: str) -> None:
+    head, _, body = TEXTS[kind].partition("\n")
+    for other in (head.upper(), head.lower()):
+        values, notes = READERS[kind](f"SEP=;\n{other}\n{body}".replace(",", ";"))
+        assert np.array_equal(values, READERS[kind](TEXTS[kind])[0])
+        assert notes == ("Read with ; between the numbers.",)
+    assert is_waypoint_text(f"SEP=;\n{HEADER.upper()}")
+
+
+@pytest.mark.parametrize(
+    ("header", "words"),
+    [
+        (HEADER.replace("h9", "h09"), "in column 10 “h09” in place of “h9”"),
+        (HEADER.replace("h12", "h12,h13"), "and has 14 columns"),
+        (HEADER.replace(",h12", ""), "and has 12 columns"),
+    ],
+)
+def test_where_a_header_differs_is_said(header: str, words: str) -> None:
+    with pytest.raises(InputError, match=r"it reads “duration_s, h1, .*") as refusal:
+        read_waypoint_csv(header + numbers(5, 13), "mine.csv")
+    assert str(refusal.value).endswith(f"{words}.")
 
 
 plain = arrays(

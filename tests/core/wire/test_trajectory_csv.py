@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
@@ -136,7 +137,7 @@ def test_unknown_axes_of_the_feet_are_refused() -> None:
     text = format_trajectory_csv(motion)
     companion = {**json.loads(format_companion(motion, text)), "feet_axes": "leg"}
     assert companion["version"] == 2
-    with pytest.raises(InputError, match="feet_axes is 'leg'"):
+    with pytest.raises(InputError, match='feet_axes is "leg"'):
         parse_trajectory_csv(text, "turn.csv", json.dumps(companion))
 
 
@@ -252,6 +253,44 @@ def test_malformed_files_are_refused_by_line_and_column(text: str, message: str)
 def test_any_text_is_read_or_refused_with_a_sentence(text: str) -> None:
     with suppress(InputError):
         assert parse_trajectory_csv(text, "t.csv").trajectory.knot_count >= 2
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "words"),
+    [
+        ("contact", 2, "does not fit it: “contact” has 2; it may have 0 and 1, or true and false. Write"),
+        ("contact", 0.5, "does not fit it: “contact” has 0.5; it may have 0 and 1, or true and false. Write"),
+        (
+            "times",
+            "0.4",
+            "does not fit it: “times” must have numbers and has other values, such as",
+        ),
+        ("heading", [0], "does not fit it: the lists of “heading” differ in length. Write"),
+        ("times", None, "does not fit it: “times” is missing. Write"),
+        ("feet_axes", ["a"], 'does not fit it: feet_axes is ["a"]; it must be one of'),
+        ("legs", True, "says true legs"),
+    ],
+)
+def test_a_value_of_a_companion_that_does_not_fit_is_named(field: str, value: object, words: str) -> None:
+    motion = turning_motion(gait_id="rotate")
+    text = format_trajectory_csv(motion)
+    content = json.loads(format_companion(motion, text))
+    if value is None:
+        del content[field]
+    elif field in ("legs", "feet_axes"):
+        content[field] = value
+    elif field == "contact":
+        content[field][0][0] = value
+    else:
+        content[field][0] = value
+    with pytest.raises(InputError, match=re.escape(words)):
+        parse_trajectory_csv(text, "t.csv", json.dumps(content))
+
+
+@pytest.mark.parametrize("content", ["[]", "3", '"a"', "null"])
+def test_a_companion_that_is_no_object_is_said_to_be_none(content: str) -> None:
+    read = parse_trajectory_csv(format_trajectory_csv(turning_motion(gait_id="rotate")), "t.csv", content)
+    assert read.assumptions[0].startswith("The companion of t.csv is no JSON object (“{…}”); assumed: ")
 
 
 @given(

@@ -83,11 +83,18 @@ def trimmed(content: bytes, begin: int) -> bytes:
 
 
 def without_pictures(content: bytes) -> bytes:
-    """An MP4 file whose tables name no picture."""
-    for name, place in ((b"stsz", 12), (b"stts", 8), (b"stsc", 8), (b"stco", 8)):
+    """An MP4 file whose tables name no picture, and which lasts 0 s."""
+    tables = ((b"stsz", 12), (b"stts", 8), (b"stsc", 8), (b"stco", 8))
+    for name, place in (*tables, (b"mvhd", 20), (b"mdhd", 20), (b"tkhd", 24), (b"elst", 12)):
         at = content.find(name) + place
         content = content[:at] + bytes(4) + content[at + 4 :]
     return content
+
+
+def without_times(content: bytes) -> bytes:
+    """An MP4 file of an even rate whose pictures last 0 s, so that all have the same time."""
+    at = content.find(b"stts") + 16
+    return content[:at] + bytes(4) + content[at + 4 :]
 
 
 def blotted(content: bytes, share: float, size: int) -> bytes:

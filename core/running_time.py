@@ -12,8 +12,8 @@ MOST_SECONDS = 0.5
 class RunningClock:
     """Seconds in which its judge has run.
 
-    A program that is suspended, frozen or put aside from the keyboard does not look. That time
-    does not count.
+    A program that is suspended, frozen or put aside from the keyboard does not look. That time does not
+    count.
 
     Args:
         clock: seconds that only grow.

@@ -13,6 +13,7 @@ import pytest
 from app.bridge.bridge import RobotBridge
 from app.bridge.states import LinkState, RobotState
 from app.bridge.transport import Transport
+from app.server.descriptors import raise_limit
 from core.errors import StateError
 from tests.support.studio_process import wait_for
 
@@ -63,6 +64,8 @@ def board() -> Iterator[Board]:
 
 @pytest.mark.parametrize("many", [0, 1500])
 def test_a_wish_after_a_time_away_is_answered_by_fresh_readings(board: Board, many: int) -> None:
+    if raise_limit(2 * many) < many:
+        pytest.skip("this system allows too few open files")
     files = [os.open(os.devnull, os.O_RDONLY) for _ in range(many)]  # beyond the 1024 that select() takes
     clock = Away()
     bridge = RobotBridge(clock=clock)

@@ -27,9 +27,9 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
     """A studio whose robot ran three times, and before that once until it was stopped."""
     folder: Path = tmp_path_factory.mktemp("data")
     database = Database(folder / "studio.sqlite3")
+    keep_run(database, "Eve", GAIT, day=-1, share=0.4)
     for day, by in enumerate(("Ada", "Bob", "Ada")):
         keep_run(database, by, GAIT, day)
-    keep_run(database, "Eve", GAIT, day=-1, share=0.4)
     database.close()
     with running_studio(folder) as running:
         yield running

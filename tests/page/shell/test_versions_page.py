@@ -36,7 +36,10 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     change(studio, 0.002)
     expect(page.locator("#saved-state")).to_have_text("Not saved to a file")
     button = page.get_by_role("button", name="Versions")
-    button.press("Enter")
+    button.focus()
+    expect(button).to_be_focused()  # a page that has just opened may still take the focus
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("listbox", name="Versions")).to_be_visible(timeout=30_000)
     expect(options(page)).to_have_count(1)
     expect(page.get_by_role("listbox", name="Versions")).to_be_focused()
     difference = page.get_by_role("region", name="Difference")

@@ -1,4 +1,4 @@
-"""What waits for the bridge's worker: bytes with their times, and lines that hung up."""
+"""The queue of the bridge's worker: bytes with the times of their arrival, and lines that hung up."""
 
 import queue
 from dataclasses import dataclass

@@ -240,7 +240,7 @@ class RobotLink(StateLog, ABC):
 
     @abstractmethod
     def _describe_stop(self, by: str) -> str:
-        """Who stops, and when in a run."""
+        """Says who stops the robot, in a run also at which time."""
 
     @abstractmethod
     def _drop_run(self) -> None:

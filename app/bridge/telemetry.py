@@ -26,8 +26,8 @@ FRESH_TIME = 0.5
 """Standing still is believed after 0.3 s of equal readings, the last at most 0.5 s old."""
 
 STALE_TIME = 1.0
-"""A robot that idles tells its strokes every 32 ms at least; older ones are not where it stands, s. A line
-holds what it says in so much time."""
+"""A robot that idles tells its strokes every 32 ms at least; older ones are not where it stands, s. The
+buffers of a line keep what the robot says in so much time."""
 
 IDLE_LINES = 2
 """Telemetry lines with no movement between them after which a robot idles."""

@@ -26,7 +26,7 @@ SLICE = 0.05
 """The longest wait at a time for a line to take bytes, s."""
 
 READ_LIMIT = 0.2
-"""What has waited at the line is read within this; a robot that never pauses is not waited for longer, s."""
+"""Longest time for reading what has waited at the line, s; a robot may go on sending without a pause."""
 
 CHUNK_BYTES = 65536
 

@@ -19,6 +19,10 @@ class InputError(FootfallError):
     """Bad usage or bad input: a file, a field or an option that cannot be used."""
 
 
+class DamagedRowError(InputError):
+    """An entry of the database that cannot be read; all others can."""
+
+
 class NotFoundError(InputError):
     """What an id or a name asks for does not exist."""
 

@@ -8,8 +8,8 @@ from app.cameras.address import DEVICE, CameraAddress
 from app.cameras.process import CameraProcess
 from app.cameras.setup_service import CameraSetupService
 from app.common.json import Json
-from app.store.camera_setup_store import CameraSetupStore
 from app.store.database import Database
+from app.store.tables.camera_setup_store import CameraSetupStore
 from core.errors import InputError, NotFoundError
 
 DEVICES = Path("/sys/class/video4linux")

@@ -9,9 +9,10 @@ import numpy as np
 
 from app.cameras.setup_schema import SetupDocument
 from app.common.json import Json, finite
-from app.store.camera_setup_store import CameraSetupRow, CameraSetupStore
 from app.store.database import Database
-from core.errors import NotFoundError, StateError
+from app.store.tables.camera_setup_store import CameraSetupRow, CameraSetupStore
+from app.store.tables.table import reading
+from core.errors import DamagedRowError, NotFoundError, StateError
 from core.vision.setup import CameraSetup
 
 MOST_VIEWS = 500
@@ -34,20 +35,41 @@ class CameraSetupService:
 
     def views(self, *, is_deleted: bool = False) -> list[Json]:
         """All setups, the last changed first."""
-        rows = self._store.found(is_deleted=is_deleted)
+        return self._all(is_deleted)[0]
+
+    def unreadable(self, *, is_deleted: bool = False) -> list[Json]:
+        """Setups that cannot be read."""
+        return self._all(is_deleted)[1]
+
+    def _all(self, is_deleted: bool) -> tuple[list[Json], list[Json]]:
+        """Views of setups, and those of which none can be made."""
+        gone = self._store.deleted()
+        rows, damaged = self._store.newest()
         if len(self._views) > MOST_VIEWS:
             self._views = {}
-        return [{**self._listed(row), "deleted": is_deleted} for row in rows]
+        views, unreadable = [], [damage.content() for damage in damaged if not is_deleted]
+        for row in rows:
+            if (row.id in gone) != is_deleted:
+                continue
+            try:
+                views.append({**self._listed(row), "deleted": is_deleted})
+            except DamagedRowError as error:
+                unreadable.append({"id": row.id, "name": row.id, "sentence": error.sentence})
+        return views, unreadable
 
     def _listed(self, row: CameraSetupRow) -> Json:
         views, key = self._views, (row.id, row.revision)
         if key not in views:
-            views[key] = _view(row)
+            views[key] = self._view(row)
         return views[key]
+
+    def _view(self, row: CameraSetupRow) -> Json:
+        with reading(f"The camera setup {row.id} cannot be read: "):
+            return {**_view(row), "deleted": row.id in self._store.deleted()}
 
     def view(self, setup: str, revision: int | None = None) -> Json:
         """A setup with what it amounts to."""
-        return _view(self._known(setup, revision))
+        return self._view(self._known(setup, revision))
 
     def check(self, document: SetupDocument) -> Json:
         """What a setup would amount to; nothing is kept.
@@ -55,7 +77,7 @@ class CameraSetupService:
         Raises:
             InputError: a value that no setup can have.
         """
-        return _view(CameraSetupRow("", 0, 0.0, document.model_dump(mode="json"), False))
+        return _view(CameraSetupRow("", 0, 0.0, document.model_dump(mode="json")))
 
     def add(self, document: SetupDocument) -> Json:
         """Keeps a new setup."""
@@ -72,7 +94,7 @@ class CameraSetupService:
         return self._keep(setup, revision + 1, document)
 
     def _keep(self, setup: str, revision: int, document: SetupDocument) -> Json:
-        row = CameraSetupRow(setup, revision, time.time(), document.model_dump(mode="json"), False)
+        row = CameraSetupRow(setup, revision, time.time(), document.model_dump(mode="json"))
         view = _view(row)
         try:
             self._store.add(setup, revision, row.made, row.content)
@@ -109,7 +131,8 @@ class CameraSetupService:
             InputError: something is missing.
         """
         row = self._known(setup)
-        made = SetupDocument.model_validate(row.content).setup()
+        with reading(f"The camera setup {setup} cannot be read: "):
+            made = SetupDocument.model_validate(row.content).setup()
         made.tracking()
         return made, row.revision
 
@@ -127,7 +150,7 @@ def _view(row: CameraSetupRow) -> Json:
         "id": row.id,
         "revision": row.revision,
         "made": row.made,
-        "deleted": row.is_deleted,
+        "deleted": False,
         "setup": row.content,
         "ready": not setup.missing,
         "missing": list(setup.missing),

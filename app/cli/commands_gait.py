@@ -20,7 +20,7 @@ from app.gaits.views import times_view
 from app.plans.verified_result import VerifiedResult, verify
 from app.store.gait_files import GaitFiles, default_data_folder
 from app.store.named_file import file_path
-from app.store.times_store import read_times
+from app.store.tables.times_store import read_times
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step, motion_problem
 from core.gait.manual_motion import manual_motion

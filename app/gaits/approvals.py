@@ -8,7 +8,8 @@ from app.documents.stored_gait import stored_gait
 from app.gaits.kept_approval import approval_of
 from app.gaits.open_gait import OpenGait, VerdictOf
 from app.plans.plan import Plan
-from app.store.edit_history_store import EditHistoryStore
+from app.store.tables.edit_history_store import ApprovalRow, EditHistoryStore
+from app.store.tables.table import Selection
 from core.errors import NotFoundError, StateError
 from core.findings import Approval, Verdict, approve, is_simulated
 from core.gait.gait import Gait
@@ -114,12 +115,9 @@ class Approvals:
     def __init__(self, log: EditHistoryStore) -> None:
         self._log = log
 
-    def all(self, gait_id: str) -> tuple[ApprovalRecord, ...]:
+    def all(self, gait_id: str) -> Selection[ApprovalRecord]:
         """A gait's approvals, the newest first."""
-        return tuple(
-            ApprovalRecord(number, approval_of(content), content.get("version"), content.get("figures", {}))
-            for number, content in self._log.approvals(gait_id)
-        )
+        return self._log.approvals(gait_id, _record)
 
     def get(self, gait_id: str, number: int) -> ApprovalRecord:
         """One approval.
@@ -127,7 +125,7 @@ class Approvals:
         Raises:
             NotFoundError: there is none of that number.
         """
-        record = next((record for record in self.all(gait_id) if record.number == number), None)
+        record = next((record for record in self.all(gait_id).rows if record.number == number), None)
         if record is None:
             raise NotFoundError(
                 f"“{gait_id}” has no approval {number}; look at its list of approvals.", "number"
@@ -138,6 +136,14 @@ class Approvals:
         """The document that was approved; None where it is not kept."""
         row = None if record.version is None else self._log.version(gait_id, record.version)
         return None if row is None else stored_gait(row.document, f"version {row.number}").gait
+
+
+def _record(row: ApprovalRow) -> ApprovalRecord:
+    content = row.content
+    datetime.fromisoformat(content["when"])
+    return ApprovalRecord(
+        row.number, approval_of(content), content.get("version"), content.get("figures") or {}
+    )
 
 
 def approval_difference(

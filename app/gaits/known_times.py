@@ -4,7 +4,7 @@ from app.documents.gait_json import sent_hash
 from app.plans.plan import Plan
 from app.plans.robot_times import robot_times
 from app.store.storage_errors import left_undone
-from app.store.times_store import TimesStore
+from app.store.tables.times_store import TimesStore
 from core.gait.gait import Gait
 from core.library.robot_times import RobotTimes, library_times
 

@@ -13,8 +13,11 @@ from app.documents.gait_json import gait_content
 from app.documents.stored_gait import StoredGait, stored_gait
 from app.gaits.kept_approval import approval_of, in_todays_form, what_changed
 from app.plans.plan import Plan
+from app.store.tables.contents import APPROVAL
+from app.store.tables.shapes import Fields, Stored
+from app.store.tables.table import reading
 from app.undo.history import History, LogEntry, fresh_history
-from core.errors import FootfallError, InputError
+from core.errors import DamagedRowError, FootfallError, InputError
 from core.findings import Approval, Verdict
 from core.gait.gait import Gait
 
@@ -116,7 +119,10 @@ class OpenGait:
         """
         if self.kept_approval is None:
             return self
-        kept = approval_of(json.loads(self.kept_approval))
+        try:
+            kept = _read_approval(self.kept_approval)
+        except DamagedRowError as error:
+            return self.unapproved(error.sentence)
         try:
             verdict = verdict_of(plan, self.gait)
         except FootfallError:
@@ -136,6 +142,13 @@ class OpenGait:
         except FootfallError:
             why = NO_PLAN
         return self if why is None else self.lapsed(self.approval, why)
+
+
+def _read_approval(text: str) -> Approval:
+    with reading("The kept approval cannot be read: "):
+        approval = approval_of(Stored(Fields(APPROVAL))(text, "approval"))
+        datetime.fromisoformat(approval.when)
+        return approval
 
 
 def fresh_gait(

@@ -10,8 +10,8 @@ from app.gaits.plan_cache import PlanCache, PlanRequest
 from app.gaits.recovery import GaitRecovery, WayOut
 from app.gaits.repository import GaitRepository
 from app.plans.plan import Plan
-from app.store.edit_history_store import VersionRow
 from app.store.storage_errors import left_undone
+from app.store.tables.edit_history_store import VersionRow
 from core.errors import InputError, NotFoundError
 from core.gait.gait import Gait
 

@@ -12,7 +12,7 @@ from app.documents.stored_gait import stored_gait
 from app.gaits.open_gait import OpenGait, gait_of, gait_text
 from app.gaits.repository import GaitRepository
 from app.gaits.versions import Versions
-from app.store.edit_history_store import EditHistoryRow, EditHistoryStore
+from app.store.tables.edit_history_store import EditHistoryRow, EditHistoryStore
 from app.undo.history import Author, History, LogEntry, fresh_history
 from core.errors import FootfallError, InputError, StateError
 from core.gait.gait import Gait
@@ -81,7 +81,7 @@ class GaitRecovery:
         if shown is None:
             raise StateError(f"No state of “{gait_id}” can be shown. Delete it; its file is kept.", gait_id)
         history, revision = self._history(gait_id), self._edits.revision(gait_id)
-        if history is None and revision > 0:  # all of it is lost
+        if history is None and self._edits.is_edited(gait_id):  # all of it is lost
             history = fresh_history(gait_text(shown.gait))
         if history is not None:
             version = None
@@ -127,7 +127,7 @@ class GaitRecovery:
                 yield ShownState(gait_of(entries[position]), position)
         with suppress(FootfallError):
             yield ShownState(self._gaits.saved(gait_id))
-        for version in self._versions.all(gait_id):
+        for version in self._versions.all(gait_id).rows:
             with suppress(FootfallError):
                 yield ShownState(stored_gait(version.document).gait)
         if gait_id in library():

@@ -11,8 +11,8 @@ from app.documents.stored_gait import StoredGait, stored_gait
 from app.gaits.open_gait import OpenGait, fresh_gait, stored_entry
 from app.gaits.saved_file import WAYS_OUT, SavedFiles
 from app.gaits.trash import ROUTE, DeletedGait, deleted_gaits
-from app.store.edit_history_store import EditHistoryRow, EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles, free_id
+from app.store.tables.edit_history_store import EditHistoryRow, EditHistoryStore, VersionRow
 from app.undo.history import History
 from core.errors import InputError, NotFoundError, StateError
 from core.gait.gait import Gait

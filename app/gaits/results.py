@@ -14,6 +14,7 @@ from app.gaits.plan_cache import PlanCache
 from app.plans.provenance import stored_result, with_found_poses, with_result
 from app.plans.sequence_plan import run_motions, runs_without_result
 from app.store.database import Database
+from app.store.tables.result_store import ResultStore
 from app.undo.history import Author
 from core.gait.gait import Gait
 from core.gait.provenance import Provenance
@@ -33,17 +34,17 @@ class Results:
     """
 
     def __init__(self, database: Database) -> None:
-        self._database = database
+        self._store = ResultStore(database)
         self._late: dict[tuple[str, str], Provenance] = {}
 
     def of(self, gait: Gait) -> Json | None:
         """The stored result that a document has. Thread-safe."""
-        return stored_result(gait, self._database.result)
+        return stored_result(gait, self._store.get)
 
     def keep(self, content: Json) -> Provenance:
         """Stores a checked result of the exact tier."""
         provenance = Provenance(**content["provenance"])
-        self._database.put_result(provenance.trajectory, content)
+        self._store.put(provenance.trajectory, content)
         return provenance
 
     def taken(self, gait_id: str, gait: Gait, provenance: Provenance) -> tuple[Gait, bool]:
@@ -80,12 +81,12 @@ class Results:
             motion: hash of what was asked.
             content: the result as it is kept.
         """
-        self._database.put_result(motion, content)
+        self._store.put(motion, content)
 
     def with_known_poses(self, gait: Gait) -> Gait:
         """The document with poses that were found for exactly what it asks, where its own are others."""
         motion = motion_hash(gait)
-        content = self._database.result(motion) if lacks_poses(gait, motion) else None
+        content = self._store.get(motion) if lacks_poses(gait, motion) else None
         return gait if content is None else with_found_poses(gait, motion, content)
 
 

@@ -5,8 +5,8 @@ from itertools import pairwise
 
 from app.documents.stored_gait import stored_gait
 from app.gaits.open_gait import gait_text
-from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles
+from app.store.tables.edit_history_store import EditHistoryStore
 from core.errors import FootfallError, InputError
 from core.gait.gait import Gait
 

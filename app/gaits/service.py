@@ -24,9 +24,9 @@ from app.gaits.views import require_line
 from app.plans.make_plan import Solve
 from app.plans.plan import Plan, verdict_of
 from app.store.database import Database
-from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles
-from app.store.times_store import TimesStore
+from app.store.tables.edit_history_store import EditHistoryStore
+from app.store.tables.times_store import TimesStore
 from app.undo.history import Author
 from core.checks.simulation import Simulated
 from core.errors import StateError

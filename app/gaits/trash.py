@@ -4,8 +4,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from app.documents.stored_gait import stored_gait
-from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles
+from app.store.tables.edit_history_store import EditHistoryStore
 from core.errors import FootfallError
 from core.library.library import library
 

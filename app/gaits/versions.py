@@ -11,7 +11,8 @@ from enum import StrEnum
 
 from app.documents.gait_json import motion_hash
 from app.gaits.open_gait import OpenGait, gait_text
-from app.store.edit_history_store import EditHistoryStore, VersionRow
+from app.store.tables.edit_history_store import EditHistoryStore, VersionRow
+from app.store.tables.table import Selection
 from app.undo.history import Author
 from core.errors import InputError, NotFoundError
 from core.gait.gait import Gait
@@ -61,14 +62,13 @@ class Versions:
         self._log = log
         self._clock = clock
 
-    def all(self, gait_id: str) -> tuple[VersionRow, ...]:
+    def all(self, gait_id: str) -> Selection[VersionRow]:
         """A gait's versions, the newest first."""
         return self._log.versions(gait_id)
 
     def newest_number(self, gait_id: str) -> int:
         """Number of the version that was made last; 0 where there is none."""
-        newest = self._log.newest_version(gait_id)
-        return 0 if newest is None else newest.number
+        return self._log.newest_number(gait_id)
 
     def get(self, gait_id: str, number: int) -> VersionRow:
         """One version.
@@ -90,7 +90,7 @@ class Versions:
             recent = 0 <= age < AUTOMATIC_SECONDS and 0 <= edits < AUTOMATIC_EDITS
             if recent or newest.document == open_gait.history.present.document:
                 return None
-        return self._row(open_gait, VersionKind.AUTOMATIC, "", "", newest)
+        return self._row(open_gait, VersionKind.AUTOMATIC, "", "")
 
     def keep(
         self, open_gait: OpenGait, kind: VersionKind, author: Author | None = None, name: str = ""
@@ -130,7 +130,7 @@ class Versions:
             and (protective or (newest.kind, newest.name) == (kind, name))
         ):
             return None
-        return self._row(open_gait, kind, name, "" if author is None else author.name, newest)
+        return self._row(open_gait, kind, name, "" if author is None else author.name)
 
     def unreadable(self, gait_id: str, position: int, document: str, author: Author) -> VersionRow:
         """The version of a document that cannot be shown, before something else takes its place.
@@ -149,11 +149,9 @@ class Versions:
         """Keeps a document that cannot be shown as a version (see `unreadable`)."""
         self._log.add_version(gait_id, self.unreadable(gait_id, position, document, author))
 
-    def _row(
-        self, open_gait: OpenGait, kind: VersionKind, name: str, by: str, newest: VersionRow | None
-    ) -> VersionRow:
+    def _row(self, open_gait: OpenGait, kind: VersionKind, name: str, by: str) -> VersionRow:
         return VersionRow(
-            number=1 if newest is None else newest.number + 1,
+            number=self.newest_number(open_gait.id) + 1,
             made=self._clock(),
             kind=kind.value,
             name=name.strip(),

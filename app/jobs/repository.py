@@ -9,7 +9,9 @@ from typing import Any
 from app.common.clock import Span
 from app.common.json import Json
 from app.store.database import Database
+from app.store.row_damage import RowDamage
 from app.store.storage_errors import left_undone
+from app.store.tables.job_store import JobStore
 from core.errors import NotFoundError
 
 ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
@@ -35,12 +37,15 @@ class JobRepository:
     """
 
     def __init__(self, database: Database) -> None:
-        self._database, self._clock = database, database.clock
+        self._store, self._clock = JobStore(database), database.clock
         self._spans: dict[str, Span] = {}
         self._numbers = itertools.count(1)
         self._contents: dict[str, Json] = {}
+        self.unreadable: tuple[RowDamage, ...] = ()
         with left_undone("The list of jobs is empty"):
-            self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
+            newest = self._store.newest(MOST_SHOWN)
+            self._contents = {row.id: row.content for row in reversed(newest.rows)}
+            self.unreadable = newest.damaged
         for content in self._contents.values():
             content["number"] = next(self._numbers)
             self._take_back(content)
@@ -77,7 +82,7 @@ class JobRepository:
             "result": None,
             **more,
         }
-        self._database.put_job(content)
+        self._store.put(content)
         self._contents[job_id], self._spans[job_id] = content, span
         self._forget_old()
         return content
@@ -91,7 +96,7 @@ class JobRepository:
         if content["state"] in ENDED:
             self._spans.pop(content["id"], None)
             with left_undone("The end of a job is shown until the studio ends, and not kept"):
-                self._database.put_job(content)
+                self._store.put(content)
 
     def content(self, job_id: str) -> Json:
         """A job as JSON content.
@@ -102,7 +107,7 @@ class JobRepository:
         known = self._contents.get(job_id)
         if known is not None:
             return known
-        stored = self._database.job(job_id)
+        stored = self._store.get(job_id)
         if stored is None:
             raise NotFoundError(f"There is no job “{job_id}”.", job_id)
         return self._take_back(stored | {"number": 0})
@@ -115,7 +120,7 @@ class JobRepository:
         """A job from the database: nothing of its course is there, and it is not on any more."""
         content["course"] = 0
         if content["state"] not in ENDED:
-            begun = content["started"] or content["created"]
+            begun = content.get("started") or content["created"]
             content |= {"state": "interrupted", "ended": max(begun, self._clock.wall())}
             again = AGAIN.get(content["kind"], "Optimise again.")
             content["sentence"] = f"The studio ended while this job was on. {again}"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from app.common.json import Json
 from app.simulation.problem import fitting_sets, physics_content, physics_from_content
 from app.store.database import Database
-from app.store.learning_store import LearningStore
+from app.store.tables.learning_store import LearningStore
 from core.errors import InputError, NotFoundError
 from core.physics.masses import default_physics
 from core.physics.parameters import PhysicsSet, physics_sets
@@ -57,7 +57,11 @@ class ParameterSets:
 
     def found(self, *, deleted: bool = False) -> tuple[ParameterSet, ...]:
         """All sets, or the deleted ones, the newest first."""
-        return tuple(_set(content) for content in self._store.sets(deleted=deleted))
+        return self._store.sets(_set, deleted=deleted).rows
+
+    def unreadable(self, *, deleted: bool = False) -> list[Json]:
+        """Sets that cannot be read."""
+        return self._store.sets(_set, deleted=deleted).unreadable
 
     def physics(self) -> tuple[PhysicsSet, ...]:
         """Every set of parameters there is: those of the program, then the learned ones."""

@@ -13,8 +13,8 @@ from app.learning.runner import BatchTier, WalkRunner
 from app.learning.views import learned_content, learned_sentence
 from app.simulation.problem import physics_from_content
 from app.store.database import Database
-from app.store.learning_store import LearningStore
 from app.store.storage_errors import left_undone
+from app.store.tables.learning_store import LearningStore
 from core.errors import FootfallError, NotFoundError, StateError
 from core.identification.learning import POINTS, Walk, learn, require_gaits, simulation_count
 from core.physics.parameters import PhysicsSet
@@ -58,7 +58,7 @@ class LearningService:
         self._on: _Work | None = None
         self._thread: threading.Thread | None = None
         with left_undone("Learning that was broken off is not marked so"):
-            for content in self._store.found(MOST_SHOWN):
+            for content in (row.content for row in self._store.newest(MOST_SHOWN).rows):
                 if content["state"] == "running":
                     ended = max(content["made"], self._clock.wall())
                     self._store.put({**content, **INTERRUPTED, "ended": ended})
@@ -119,10 +119,14 @@ class LearningService:
         """The newest courses, the newest first; without their results."""
         now = self._now()
         kept = [
-            now if now is not None and one["id"] == now["id"] else one
-            for one in self._store.found(MOST_SHOWN)
+            now if now is not None and row.id == now["id"] else row.content
+            for row in self._store.newest(MOST_SHOWN).rows
         ]
         return [{key: value for key, value in one.items() if key != "result"} for one in kept]
+
+    def unreadable(self) -> list[Json]:
+        """Courses that cannot be read."""
+        return self._store.newest(MOST_SHOWN).unreadable
 
     def content(self, learning: str) -> Json:
         """One course with its result.

@@ -16,7 +16,6 @@ from core.gait.held_feet import HeldFeet, held_sentence
 from core.gait.manual_motion import manual_motion, stance_slip
 from core.gait.poses import FoundPoses
 from core.gait.recording import AS_RECORDED, Recording, RecordingForm
-from core.motion.trajectory import Trajectory
 from core.pose_gaits.gait_poses import asked_of, drawn_poses, found_gait, gait_of_poses, pose_problem
 from core.pose_gaits.pace import motion_words
 from core.pose_gaits.pose_check import check_poses
@@ -60,12 +59,10 @@ def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
                 Plan(PlanSource.MANUAL, note, model, motion.trajectory, None, None, motion.slip), gait.options
             )
         problem = motion_problem(gait, model)
-        stored = _confirmed(problem, result)
-        if stored is not None and result is not None:
-            note = " ".join(filter(None, (_optimised_note(result), _held_note(gait, model))))
-            plan = Plan(PlanSource.OPTIMISED, note, model, stored, None, None)
-            seconds, trajectory = result["solve_seconds"], content_sha256(result["trajectory"])
-            return with_waypoints(replace(plan, seconds=seconds, result=trajectory), gait.options)
+        stored = _optimised_plan(problem, result)
+        if stored is not None:
+            note = " ".join(filter(None, (stored.note, _held_note(gait, model))))
+            return with_waypoints(replace(stored, note=note), gait.options)
         plan = _live_plan(problem, verify(problem, solve(problem)))
         if plan.source is PlanSource.LIVE:
             plan = replace(plan, note=" ".join(filter(None, (plan.note, _held_note(gait, model)))))
@@ -163,13 +160,17 @@ def _live_plan(problem: MotionProblem, answer: VerifiedResult) -> Plan:
     return Plan(PlanSource.DRAFT, note, model, nearest, None, None, None, answer, seconds)
 
 
-def _confirmed(problem: MotionProblem, result: Json | None) -> Trajectory | None:
-    """A stored result's motion, if the checker still confirms it for this problem and this robot."""
+def _optimised_plan(problem: MotionProblem, result: Json | None) -> Plan | None:
+    """The plan of a stored result, if the checker confirms its motion for this problem and robot."""
     if result is None:
         return None
     try:
         trajectory = trajectory_from_content(result["trajectory"])
-        return trajectory if check_motion(problem, trajectory).confirmed else None
+        if not check_motion(problem, trajectory).confirmed:
+            return None
+        plan = Plan(PlanSource.OPTIMISED, _optimised_note(result), problem.model, trajectory, None, None)
+        seconds, key = float(result["solve_seconds"]), content_sha256(result["trajectory"])
+        return replace(plan, seconds=seconds, result=key)
     except (KeyError, TypeError, ValueError, InputError):
         return None
 

@@ -58,7 +58,7 @@ def with_found_poses(gait: Gait, motion: str, content: Json) -> Gait:
         motion: hash of what was asked.
         content: the result as it is kept.
     """
-    found = content["found"]
+    found = content.get("found")
     if gait.poses is None or found is None or motion_hash(gait) != motion:
         return gait
     problem = pose_problem(gait, load_robot(gait.robot))

@@ -14,6 +14,7 @@ from app.robot.views import RUNNING, RunOrigin, run_end
 from app.runs.recovery import end_abandoned
 from app.store.database import Database
 from app.store.storage_errors import left_undone
+from app.store.tables.run_store import RunStore
 from core.errors import FootfallError, StateError
 
 
@@ -47,7 +48,7 @@ class RecordedBridge:
         end_abandoned(database)
         self.previous: Json | None = None
         with left_undone("The last run is not shown"):
-            self.previous = next(iter(database.runs(1)), None)
+            self.previous = RunStore(database).newest()
         self.origin: RunOrigin | None = None
         self._recorder = RunRecorder(database, changed)
         self._record: Json | None = None

@@ -12,8 +12,8 @@ from app.common.clock import boot_seconds
 from app.common.json import Json
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
-from app.store.run_store import RunStore
-from app.store.run_writer import RunWriter
+from app.store.tables.run_store import RunStore
+from app.store.tables.run_writer import RunWriter
 from core.errors import StateError, StorageError
 from core.running_time import Deadline
 
@@ -60,7 +60,7 @@ class RunRecorder:
     ) -> None:
         self._runs = RunStore(database)
         self._data = database.path.parent
-        self._writer = writer or RunWriter(database.path)
+        self._writer = writer or RunWriter(database.path, database.files)
         self._changed = changed
         self._lock, self._noting = threading.Lock(), threading.Lock()
         self._waiting: list[tuple[str, Entry]] = []

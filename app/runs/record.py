@@ -7,7 +7,8 @@ import numpy as np
 
 from app.bridge.states import Direction
 from app.runs.plan_json import ran_plan
-from app.store.run_store import RunRow, RunStore
+from app.store.tables.run_store import RunRow, RunStore
+from app.store.tables.table import reading
 from core.arrays import Floats
 from core.errors import NotFoundError, StateError
 from core.runs.analysis import move_begins, plan_times
@@ -96,15 +97,17 @@ def read_record(log: RunStore, run: str) -> RunRecord:
             "strokes cannot be laid over one.",
             run,
         )
-    plan, began = ran_plan(content), row.content["started_monotonic"]
-    pieces = tuple(
-        RunBytes(time - began, direction == Direction.TO_ROBOT, data)
-        for time, direction, data in log.bytes_of(run)
-    )
-    states = tuple(
-        StateChange(time - began, link, robot, cause) for time, link, robot, cause in log.states_of(run)
-    )
-    series = read_run(pieces, plan.waypoints, row.content.get("from", 0))
+    with reading(f"The run “{run}” cannot be read: "):
+        plan, began = ran_plan(content), row.content["started_monotonic"]
+        pieces = tuple(
+            RunBytes(piece.time - began, piece.direction == Direction.TO_ROBOT, piece.data)
+            for piece in log.bytes_of(run)
+        )
+        states = tuple(
+            StateChange(state.time - began, state.link, state.robot, state.cause)
+            for state in log.states_of(run)
+        )
+        series = read_run(pieces, plan.waypoints, row.content.get("from", 0))
     return RunRecord(row, plan, pieces, states, series)
 
 
@@ -116,5 +119,19 @@ def known_row(log: RunStore, run: str) -> RunRow:
     """
     row = log.get(run)
     if row is None:
-        raise NotFoundError(f"There is no run “{run}”. It may be of another data folder.", run)
+        raise _unknown(run)
     return row
+
+
+def require_known(is_known: bool, run: str) -> None:
+    """There is a run of that id.
+
+    Raises:
+        NotFoundError: there is none.
+    """
+    if not is_known:
+        raise _unknown(run)
+
+
+def _unknown(run: str) -> NotFoundError:
+    return NotFoundError(f"There is no run “{run}”. It may be of another data folder.", run)

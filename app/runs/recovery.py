@@ -4,9 +4,9 @@ import json
 
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, abandoned_journal, journalled_runs
-from app.store.run_rows import add_bytes, add_states, byte_row, put_run, state_row
-from app.store.run_store import RunStore
 from app.store.storage_errors import left_undone
+from app.store.tables.run_rows import add_bytes, add_states, byte_row, put_run, state_row
+from app.store.tables.run_store import RunStore
 
 ABANDONED = "The program that sent this run ended while it was on; nothing resumes by itself."
 

@@ -8,10 +8,10 @@ import numpy as np
 from app.common.json import Json, finite
 from app.runs.comparison import comparison_content
 from app.runs.figures import FIGURES_VERSION, mm_content, rounded_content, run_figures
-from app.runs.record import RunRecord, known_row, read_record
+from app.runs.record import RunRecord, known_row, read_record, require_known
 from app.runs.recovery import end_abandoned
 from app.store.database import Database
-from app.store.run_store import RunFilter, RunRow, RunStore
+from app.store.tables.run_store import RunFilter, RunRow, RunStore
 from core.errors import FootfallError
 
 
@@ -29,9 +29,10 @@ class RunService:
     def found(self, wanted: RunFilter, offset: int, most: int) -> Json:
         """Some of the runs that a filter leaves, the newest first, and what can be filtered by."""
         end_abandoned(self._database)
-        rows = self._store.found(wanted, offset, most)
+        selection = self._store.listed(wanted, offset, most)
         return {
-            "runs": [self._line(row) for row in rows],
+            "runs": [self._line(row) for row in selection.rows],
+            "unreadable": selection.unreadable,
             "total": self._store.count(wanted),
             "offset": offset,
             **self._store.choices(),
@@ -47,8 +48,8 @@ class RunService:
             "merge": plan.get("merge"),
             "stop_bound": plan.get("stop_bound"),
             "states": [
-                {"time": at - began, "link": link, "robot": robot, "cause": cause}
-                for at, link, robot, cause in self._store.states_of(run)
+                {"time": state.time - began, "link": state.link, "robot": state.robot, "cause": state.cause}
+                for state in self._store.states_of(run)
             ],
         }
 
@@ -88,14 +89,12 @@ class RunService:
 
     def delete(self, run: str) -> Json:
         """Takes a run out of every list; `restore` brings it back."""
-        known_row(self._store, run)
-        self._store.put_deleted(run, time.time())
+        require_known(self._store.put_deleted(run, time.time()), run)
         return {"id": run, "deleted": True}
 
     def restore(self, run: str) -> Json:
         """Brings a deleted run back."""
-        known_row(self._store, run)
-        self._store.put_deleted(run, None)
+        require_known(self._store.put_deleted(run, None), run)
         return self.summary(run)
 
     def _line(self, row: RunRow) -> Json:

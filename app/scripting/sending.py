@@ -31,7 +31,7 @@ from app.scripting.progress import progress_bar
 from app.scripting.verdicts import verdict_on
 from app.store.database import DATABASE, Database
 from app.store.gait_files import default_data_folder
-from app.store.run_store import RunStore
+from app.store.tables.run_store import RunStore
 from core.arrays import Floats
 from core.errors import CheckError, InputError, RobotError, StateError
 from core.findings import Verdict, approve, override_all

@@ -10,7 +10,7 @@ from starlette.middleware import Middleware
 
 from app.common.version import VERSION
 from app.documents.gait_json import gait_schema
-from app.routes import atlases, events, jobs, robots, scene
+from app.routes import atlases, events, jobs, robots, scene, storage
 from app.routes.gaits import (
     approvals,
     conversions,
@@ -51,6 +51,7 @@ _ROUTERS = (
     approvals.router,
     versions.router,
     jobs.router,
+    storage.router,
     atlases.router,
     patterns.router,
     robot.router,

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import asdict
 from typing import Protocol
 
@@ -18,9 +19,10 @@ from app.simulation.problem import (
     with_way,
 )
 from app.simulation.view import motion_content, variations_content
-from app.store.simulation_store import SimulationRow, SimulationStore
+from app.store.tables.simulation_store import SimulationRow, SimulationStore
+from app.store.tables.table import reading
 from core.checks.simulation import Simulated
-from core.errors import NotFoundError
+from core.errors import DamagedRowError, NotFoundError
 from core.physics.findings import physics_outcomes
 from core.physics.masses import default_physics
 from core.physics.metrics import report
@@ -118,7 +120,8 @@ class SimulationRepository:
             raise NotFoundError(
                 "There is no such simulation, or it is not kept any more. Simulate again.", key
             )
-        return {**content, "report": with_way(content["report"])}
+        with reading("This simulation cannot be read: "):
+            return {**content, "report": with_way(content["report"])}
 
     def standing(self, gait_id: str, plan: Plan) -> Json | None:
         """The newest simulation of a gait, rather one of its plan as it is; None where there is none.
@@ -156,9 +159,9 @@ class SimulationRepository:
             if content is not None:
                 physics = sets[row.key]
                 problem = simulation_problem(plan, physics)
-                return Simulated(
-                    report_from_content(content["report"]), problem, simulation_key(plan, physics)
-                )
+                with suppress(DamagedRowError), reading():
+                    figures = report_from_content(content["report"])
+                    return Simulated(figures, problem, simulation_key(plan, physics))
         return None
 
     def keys_of(self, plan: Plan) -> frozenset[str]:

@@ -23,7 +23,7 @@ from app.simulation.problem import (
 )
 from app.simulation.repository import SimulationRepository, SimulationResult, simulation_row
 from app.simulation.view import report_sentence
-from app.store.simulation_store import SimulationRow
+from app.store.tables.simulation_store import SimulationRow
 from core.errors import FootfallError, StateError, StorageError
 from core.physics.masses import part_masses
 from core.physics.parameters import PhysicsSet

@@ -17,9 +17,9 @@ from app.store.storage_errors import file_error, storage_error
 from core.errors import StorageDamagedError, StorageError, StorageFullError
 
 FOLDER = "backups"
-DAILY, MIGRATION = "daily", "before-migration"
+DAILY, MIGRATION, RESCUE = "daily", "before-migration", "rescued"
 """Why a backup was made; part of its file's name."""
-MOST = {DAILY: 7, MIGRATION: 3}
+MOST = {DAILY: 7, MIGRATION: 3, RESCUE: 3}
 """Backups that are kept of each kind; the oldest go."""
 LEAST_FREE = 64_000_000
 """Bytes that a backup leaves free on the disk."""
@@ -100,8 +100,13 @@ def way_back(data: Path) -> str:
     )
 
 
-def make_backup(database: Path, kind: str) -> Backup:
+def make_backup(database: Path, kind: str, source: sqlite3.Connection | None = None) -> Backup:
     """Copies a database, also while programs write to it, checks the copy, and takes the oldest ones away.
+
+    Args:
+        database: its file.
+        kind: why.
+        source: a connection to it, where the file itself may be gone.
 
     Raises:
         StorageFullError: there is no room for it.
@@ -116,9 +121,15 @@ def make_backup(database: Path, kind: str) -> Backup:
         folder.mkdir(exist_ok=True)
         _sweep(folder)
         _require_room(database)
-        _copy(database, partial)
+        if source is None:
+            with closing(reading(database, is_open=True)) as opened:
+                _copy(opened, partial)
+        else:
+            _copy(source, partial)
         _require_whole(partial, database)
         put_in_place(partial, folder / name)
+    except sqlite3.Error as error:
+        raise storage_error(error, database) or error from error
     except OSError as error:
         raise file_error(error, folder) from error
     finally:
@@ -128,13 +139,10 @@ def make_backup(database: Path, kind: str) -> Backup:
     return Backup(folder / name, state.st_mtime, state.st_size)
 
 
-def _copy(database: Path, partial: Path) -> None:
-    try:
-        with closing(reading(database, is_open=True)) as source, closing(sqlite3.connect(partial)) as target:
-            source.backup(target)
-            target.execute("PRAGMA journal_mode=DELETE")  # one file, without others beside it
-    except sqlite3.Error as error:
-        raise storage_error(error, database) or error from error
+def _copy(source: sqlite3.Connection, partial: Path) -> None:
+    with closing(sqlite3.connect(partial)) as target:
+        source.backup(target)
+        target.execute("PRAGMA journal_mode=DELETE")  # one file, without others beside it
 
 
 def _require_whole(partial: Path, database: Path) -> None:

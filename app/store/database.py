@@ -1,27 +1,26 @@
-"""The studio's SQLite file (WAL): results, jobs and runs; other tables have stores of their own.
+"""The studio's SQLite file (WAL); each of its tables has a store in `app.store.tables`.
 
 Every write is committed before its method returns, so that what was acknowledged survives a kill.
 """
 
-import json
 import logging
 import sqlite3
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
 from app.common.clock import CLOCK, Clock
-from app.common.json import Json
-from app.store import run_rows
-from app.store.backups import MIGRATION, damaged_sentence, make_backup
+from app.store.backups import MIGRATION, RESCUE, damaged_sentence, make_backup
+from app.store.database_files import DatabaseFiles
 from app.store.folder_lock import DatabaseUse
 from app.store.folder_time import FolderTime
-from app.store.quick_check import missing_sentence
+from app.store.quick_check import damage_of, missing_sentence
+from app.store.row_damage import DamagedText, RowDamage
 from app.store.schema import bring_up_to_date, is_outdated, try_write
 from app.store.storage_errors import storage_error
-from core.errors import StorageDamagedError
+from core.errors import FootfallError, StorageDamagedError
 
 logger = logging.getLogger(__name__)
 
@@ -42,7 +41,9 @@ class Database:
         folder_time: by which old things in the data folder go.
         damage: says that the file is damaged, and how to get back; nothing is written to it then, since going
             back to a backup would lose it again. None where nothing of the kind is known.
-        damaged: called, from any thread, once `damage` is set.
+        row_damages: rows that could not be read, by table and number. All others are as they were.
+        files: the files of the database.
+        damaged: called, from any thread, once `damage` is set, and for each new row in `row_damages`.
 
     Raises:
         InputError: a newer program wrote it, or the data folder cannot be used.
@@ -53,6 +54,7 @@ class Database:
         self.path, self.clock = path, clock
         self.folder_time = FolderTime(path.parent, clock)
         self.damage: str | None = None
+        self.row_damages: dict[tuple[str, int], RowDamage] = {}
         self.damaged: Callable[[], None] = lambda: None
         self._lock = threading.Lock()
         with ExitStack() as opened:
@@ -70,6 +72,7 @@ class Database:
                 if missing:
                     raise StorageDamagedError(f"The database {path} is damaged ({missing}).", str(path))
                 try_write(self._connection)
+                self.files = DatabaseFiles(path)
             self._opened = opened.pop_all()
 
     def close(self) -> None:
@@ -82,12 +85,15 @@ class Database:
         """One transaction; it is on disk when this ends without an error, and nothing of it is otherwise.
 
         Raises:
-            StorageError: the disk or the database does not take it.
+            StorageError: the disk or the database does not take it, or a file of the database was taken away.
         """
         if self.damage is not None:
             raise StorageDamagedError(self.damage, str(self.path))
-        with self._sentences(), self._lock, self._connection:
-            yield self._connection
+        with self._sentences(), self._lock:
+            self._require_files(self.files.fault())
+            with self._connection:
+                yield self._connection
+            self._require_files(self.files.fault_after_write())
 
     def rows(self, query: str, *values: Any) -> list[tuple[Any, ...]]:
         """What a query finds.
@@ -97,6 +103,45 @@ class Database:
         """
         with self._sentences(), self._lock:
             return self._connection.execute(query, values).fetchall()
+
+    def take_row_damage(self, damage: RowDamage, columns: Iterable[Any]) -> None:
+        """Keeps in mind that a row cannot be read, for as long as it is there.
+
+        Args:
+            damage: what is wrong.
+            columns: the row's; where one is no text any more, the file itself is looked at.
+
+        Raises:
+            StorageDamagedError: the file is damaged.
+        """
+        place = (damage.table, damage.row)
+        if place in self.row_damages:
+            return
+        self.row_damages[place] = damage
+        logger.warning("%s", damage.sentence)
+        if any(isinstance(column, DamagedText) for column in columns):
+            with self._sentences():
+                found = damage_of(self.path, is_open=True)
+                if found is not None:
+                    raise StorageDamagedError(
+                        f"The database {self.path} is damaged ({found}).", str(self.path)
+                    )
+        self.damaged()
+
+    def _require_files(self, fault: str | None) -> None:
+        """The files of the database are still its own.
+
+        Raises:
+            StorageDamagedError: they are not. What the database holds was copied to a backup.
+        """
+        if fault is None:
+            return
+        try:
+            backup = make_backup(self.path, RESCUE, self._connection)
+            kept = f"Everything that was stored until then is in the backup {backup.path.name}."
+        except FootfallError as error:
+            kept = f"What was stored since the last backup may be lost: {error.sentence}"
+        raise StorageDamagedError(f"{fault} {kept}", str(self.path))
 
     def take_damage(self, sentence: str) -> None:
         """Refuses to write from now on, since the file is damaged."""
@@ -119,62 +164,12 @@ class Database:
                 raise StorageDamagedError(self.damage or refusal.sentence, refusal.where) from error
             raise refusal from error
 
-    def result(self, motion: str) -> Json | None:
-        """The stored result for a motion hash."""
-        rows = self.rows("SELECT content FROM result WHERE motion=?", motion)
-        return json.loads(rows[0][0]) if rows else None
 
-    def put_result(self, motion: str, content: Json) -> None:
-        """Stores a checked result."""
-        with self.writing() as connection:
-            connection.execute(
-                "INSERT OR REPLACE INTO result VALUES(?,?)", (motion, json.dumps(content, allow_nan=False))
-            )
-
-    def jobs(self, most: int = 50) -> list[Json]:
-        """The newest jobs, newest first."""
-        rows = self.rows("SELECT content FROM job ORDER BY rowid DESC LIMIT ?", most)
-        return [json.loads(row[0]) for row in rows]
-
-    def job(self, job_id: str) -> Json | None:
-        """A job as it was stored; None where there is none of that id."""
-        rows = self.rows("SELECT content FROM job WHERE id = ?", job_id)
-        return json.loads(rows[0][0]) if rows else None
-
-    def put_job(self, content: Json) -> None:
-        """Stores a job as it is now."""
-        with self.writing() as connection:
-            connection.execute(
-                "INSERT INTO job(id, created, content) VALUES(?,?,?) "
-                "ON CONFLICT(id) DO UPDATE SET content=excluded.content",
-                (content["id"], content["created"], json.dumps(content, allow_nan=False)),
-            )
-
-    def runs(self, most: int = 100) -> list[Json]:
-        """The newest runs, newest first."""
-        rows = self.rows("SELECT content FROM run ORDER BY rowid DESC LIMIT ?", most)
-        return [json.loads(row[0]) for row in rows]
-
-    def put_run(self, content: Json) -> None:
-        """Stores a run as it is now."""
-        with self.writing() as connection:
-            run_rows.put_run(connection, content)
-
-    def add_bytes(self, rows: list[run_rows.ByteRow]) -> None:
-        """Adds to the record of bytes."""
-        with self.writing() as connection:
-            run_rows.add_bytes(connection, rows)
-
-
-def _text(content: bytes) -> str:
-    """A stored text; pages that were overwritten hold no text any more, or end in zeros.
-
-    Raises:
-        sqlite3.OperationalError: as SQLite's own reader of texts would.
-    """
+def _text(content: bytes) -> str | DamagedText:
+    """A stored text; where a page was overwritten it is none any more, or ends in zeros."""
     try:
         if content.strip(b"\0") == content:  # within a text an older version may have kept one
             return content.decode()
     except UnicodeDecodeError:
         pass
-    raise sqlite3.OperationalError("could not decode a stored text")
+    return DamagedText(content)

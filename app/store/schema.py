@@ -219,6 +219,14 @@ def _add_edit_numbers(connection: sqlite3.Connection) -> None:
     connection.execute("ALTER TABLE history ADD COLUMN edit TEXT NOT NULL DEFAULT ''")
 
 
+def _add_set_aside(connection: sqlite3.Connection) -> None:
+    """Rows that could not be read and that a person set aside: their table, number and columns."""
+    connection.execute(
+        "CREATE TABLE set_aside(number INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT, row INTEGER, made REAL, "
+        "columns TEXT)"
+    )
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
@@ -231,6 +239,7 @@ _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_turn_rates,
     _add_reasons,
     _add_edit_numbers,
+    _add_set_aside,
 )
 
 NEWEST = len(_MIGRATIONS)

@@ -35,10 +35,10 @@ from app.session.event_hub import EventHub
 from app.simulation.repository import SimulationRepository
 from app.simulation.service import SimulationService
 from app.store.database import DATABASE, Database
-from app.store.database_keeper import DatabaseKeeper
 from app.store.gait_files import ATLASES, GaitFiles, require_places
-from app.store.simulation_store import SimulationStore
-from app.store.trial_reference_store import TrialReferenceStore
+from app.store.tables.simulation_store import SimulationStore
+from app.store.tables.trial_reference_store import TrialReferenceStore
+from app.studio.database_keeper import DatabaseKeeper
 from app.studio.file_watch import FileWatch
 from app.studio.job_commands import JobCommands
 from app.studio.publisher import Publisher

@@ -9,8 +9,8 @@ from typing import Any
 from app.common.json import Json
 from app.store.database import Database
 from app.store.gait_files import PHOTOS, require_folder
-from app.store.photo_store import PhotoStore
 from app.store.plain_file import write_atomically
+from app.store.tables.photo_store import PhotoStore
 from app.trials.service import TrialService
 from app.vision.services import VisionServices, ask
 from app.vision.worker import MakePhoto, PhotoFiles, Source
@@ -46,7 +46,11 @@ class TrialPhotos:
     def photos(self, trial: str) -> list[Json]:
         """A trial's photos, in the order in which they came."""
         self._service.record(trial)
-        return self._store.of_trial(trial)
+        return [row.content for row in self._store.of_trial(trial).rows]
+
+    def unreadable(self, trial: str) -> list[Json]:
+        """A trial's photos that cannot be read."""
+        return self._store.of_trial(trial).unreadable
 
     def add(self, trial: str, content: bytes, name: str, by: str) -> Json:
         """Keeps a photo, no wider than `KEPT_WIDTH` and with nothing in it but the picture.
@@ -76,7 +80,7 @@ class TrialPhotos:
             "height": made.size[1],
         }
         with self._lock:
-            if len(self._store.of_trial(trial)) >= MOST_PHOTOS:
+            if len(self._store.of_trial(trial).rows) >= MOST_PHOTOS:
                 raise InputError(
                     f"This trial has {MOST_PHOTOS} photos, and no more are kept. Delete one.", name
                 )
@@ -124,10 +128,10 @@ class TrialPhotos:
             raise NotFoundError(f"The file of photo {photo} is gone: {error.strerror}.", "photo") from error
 
     def _known(self, trial: str, photo: str) -> dict[str, Any]:
-        content = self._store.get(trial, photo)
-        if content is None:
+        row = self._store.get(trial, photo)
+        if row is None:
             raise NotFoundError(f"The trial {trial} has no photo {photo}.", "photo")
-        return content
+        return row.content
 
     def _path(self, photo: str, *, is_small: bool = False) -> Path:
         return self._folder / (f"{photo}-small.jpg" if is_small else f"{photo}.jpg")

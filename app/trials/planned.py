@@ -9,6 +9,7 @@ import numpy as np
 from app.plans.plan import Plan
 from app.runs.plan_json import ran_plan, sent_content
 from app.runs.record import RunRecord
+from app.store.tables.table import reading
 from core.arrays import Floats
 from core.errors import StateError
 from core.gait.gait import Gait
@@ -78,7 +79,7 @@ SAME_TIME = 1e-6
 """Times nearer to each other are one, s."""
 
 
-def sent_problem(content: dict[str, Any]) -> SimulationProblem:
+def sent_problem(content: Mapping[str, Any]) -> SimulationProblem:
     """What physics is asked of waypoints that were sent, with the robot's usual parameters.
 
     A foot counts as standing at a waypoint where it stands by the plan at the knots on both sides of it, and
@@ -86,7 +87,15 @@ def sent_problem(content: dict[str, Any]) -> SimulationProblem:
 
     Args:
         content: as `PlannedFeet.sent`.
+
+    Raises:
+        DamagedRowError: something in it is missing or of another kind.
     """
+    with reading("What the robot was sent cannot be read: "):
+        return _sent_problem(content)
+
+
+def _sent_problem(content: Mapping[str, Any]) -> SimulationProblem:
     plan = ran_plan(dict(content))
     trajectory, knots = plan.trajectory, plan.trajectory.times
     first = np.maximum(np.searchsorted(knots, plan.times + SAME_TIME, side="right") - 1, 0)

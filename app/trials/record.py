@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from app.store.trial_store import TrialRow
+from app.store.tables.table import reading
+from app.store.tables.trial_store import TrialRow
 from app.trials.planned import PlannedFeet
 from core.arrays import interpolated
 from core.errors import InputError
@@ -120,7 +121,16 @@ def kept_track(row: TrialRow) -> FootTrack:
 
 
 def trial_record(row: TrialRow) -> TrialRecord:
-    """Reads a trial."""
+    """Reads a trial.
+
+    Raises:
+        DamagedRowError: something in it is missing or of another kind.
+    """
+    with reading(f"The trial “{row.content['name']}” cannot be read: "):
+        return _trial_record(row)
+
+
+def _trial_record(row: TrialRow) -> TrialRecord:
     content, track = row.content, kept_track(row)
     plan = content["plan"]
     planned = None

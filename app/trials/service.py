@@ -3,21 +3,23 @@
 import time
 import uuid
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from app.common.json import Json
 from app.store.database import Database
-from app.store.trial_reference_store import TrialReferenceStore
-from app.store.trial_store import TrialRow, TrialStore
+from app.store.tables.table import Selection, reading
+from app.store.tables.trial_reference_store import TrialReferenceStore
+from app.store.tables.trial_store import TrialRow, TrialStore
 from app.trials.figures import path_content, plan_content, track_content
 from app.trials.planned import PlannedFeet
 from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
 from app.trials.track_source import TrackRecord, astray_content, fit_content
 from core.arrays import Floats
-from core.errors import FootfallError, InputError, NotFoundError, StateError
+from core.errors import DamagedRowError, FootfallError, InputError, NotFoundError, StateError
 from core.robot.model import load_robot
 from core.trials.alignment import align, placed_motion
 from core.trials.iterations import find_iterations
@@ -98,7 +100,7 @@ class TrialService:
             "plan": None if planned is None else _kept_plan(planned),
             "sight": None if track_record is None else track_record.content(),
         }
-        row = TrialRow(content, format_track_csv(track), False)
+        row = TrialRow(content["id"], content, format_track_csv(track))
         summary = _summary(row)
         self._store.add(content, row.track)
         if planned is not None and planned.sent is not None:
@@ -108,20 +110,25 @@ class TrialService:
 
     def lines(self) -> list[Json]:
         """All trials that have figures, the newest first, each with its mean figures."""
-        return [line for line in self._all_lines() if "sentence" not in line]
+        return [line for line in self._all_lines().rows if "sentence" not in line]
 
     def unreadable(self) -> list[Json]:
-        """Kept trials whose figures cannot be computed: id, name and a sentence why."""
-        return [line for line in self._all_lines() if "sentence" in line]
+        """Trials that cannot be read, or whose figures cannot be computed: id, name and a sentence why."""
+        selection = self._all_lines()
+        return [*(line for line in selection.rows if "sentence" in line), *selection.unreadable]
 
-    def _all_lines(self) -> list[Json]:
+    def _all_lines(self) -> Selection[Json]:
         """The line of each listed trial, computed once for what is known of it."""
         lines: dict[str, tuple[Json, Json]] = {}
-        for row in self._store.found():
-            content, line = self._lines.get(row.content["id"], ({}, {}))
-            lines[row.content["id"]] = (row.content, line if content == row.content else _line(row))
+
+        def line_of(row: TrialRow) -> Json:
+            content, line = self._lines.get(row.id, ({}, {}))
+            lines[row.id] = (row.content, line if content == row.content else _line(row))
+            return lines[row.id][1]
+
+        selection = self._store.listed(line_of)
         self._lines = lines
-        return [line for _, line in lines.values()]
+        return selection
 
     def summary(self, trial: str) -> Json:
         """A trial's figures, each foot's and each iteration's, beside its plan's."""
@@ -157,7 +164,7 @@ class TrialService:
         content = {**row.content, **changes, "revision": revision + 1}
         if content["iterations"] != row.content["iterations"] and "ends" not in changes:
             content["ends"] = None
-        changed = TrialRow(content, row.track, row.is_deleted)
+        changed = replace(row, content=content)
         shown = _summary(changed)
         if not self._store.change(content, revision):
             raise _moved_on(self.require_listed(trial), revision)
@@ -166,14 +173,14 @@ class TrialService:
 
     def delete(self, trial: str) -> None:
         """Takes a trial out of the list; `restore` brings it back."""
-        self._known(trial)
-        self._store.put_deleted(trial, time.time())
-        self._tell(self._known(trial))
+        if not self._store.put_deleted(trial, time.time()):
+            raise _unknown(trial)
+        with suppress(DamagedRowError):  # it can be deleted all the same, and its line goes
+            self._tell(self._known(trial))
 
     def restore(self, trial: str) -> Json:
         """Brings a deleted trial back."""
-        kept = self._known(trial)
-        row = TrialRow(kept.content, kept.track, False)
+        row = replace(self._known(trial), deleted=None)
         summary = _summary(row)
         self._store.put_deleted(trial, None)
         self._tell(row)
@@ -209,8 +216,12 @@ class TrialService:
     def _known(self, trial: str) -> TrialRow:
         row = self._store.get(trial)
         if row is None:
-            raise NotFoundError(f"There is no trial {trial}.", "trial")
+            raise _unknown(trial)
         return row
+
+
+def _unknown(trial: str) -> NotFoundError:
+    return NotFoundError(f"There is no trial {trial}.", "trial")
 
 
 def revision_of(content: Json) -> int:
@@ -245,6 +256,11 @@ _WORDS = ("id", "made", "name", "by", "note", "gait", "gait_name", "run", "expec
 
 
 def _summary(row: TrialRow) -> Json:
+    with reading(f"The trial “{row.content['name']}” cannot be read: "):
+        return _summary_of(row)
+
+
+def _summary_of(row: TrialRow) -> Json:
     content, track = row.content, kept_track(row)
     expected = content["expected_cm"] / 100.0
     found = find_iterations(track, content["iterations"])

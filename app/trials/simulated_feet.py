@@ -8,6 +8,7 @@ import json
 import logging
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,10 +18,10 @@ from app.common.version import VERSION
 from app.simulation.problem import FORM, physics_content
 from app.simulation.service import SimulationHandle, SimulationTier
 from app.simulation.view import shown_samples
-from app.store.trial_reference_store import TrialReferenceStore
+from app.store.tables.trial_reference_store import TrialReferenceStore
 from app.trials.planned import sent_problem
 from core.arrays import Floats
-from core.errors import FootfallError
+from core.errors import DamagedRowError, FootfallError
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.trials.alignment import repeated_motion
@@ -93,12 +94,17 @@ class TrialSimulations:
 
     def feet(self, trial: str) -> SimulatedFeet | None:
         """A trial's simulated feet; None where they are not there, or of other parameters or versions."""
-        problem = self._problem(trial)
-        return None if problem is None else self._feet(trial, _key(problem))
+        with suppress(DamagedRowError):
+            problem = self._problem(trial)
+            return None if problem is None else self._feet(trial, _key(problem))
+        return None
 
     def standing(self, trial: str) -> Json:
         """How a trial's simulation stands: state `none`, `absent`, `running`, `failed` or `done`."""
-        problem = self._problem(trial)
+        try:
+            problem = self._problem(trial)
+        except DamagedRowError as error:
+            return _state("none", sentence=error.sentence)
         return _state("none", sentence=NOT_KNOWN) if problem is None else self._standing(trial, _key(problem))
 
     def begin(self, trial: str) -> Json:

@@ -20,7 +20,7 @@ from app.common.json import Json
 from app.robot.views import RUNNING
 from app.runs.service import RunService
 from app.store.database import Database
-from app.store.run_store import RunStore
+from app.store.tables.run_store import RunStore
 from app.trials.run_trial import run_trial
 from app.trials.service import TrialService
 from app.trials.track_source import TrackRecord, TrackSource

@@ -11,7 +11,7 @@ import numpy as np
 
 from app.common.json import Json
 from app.store.database import Database
-from app.store.video_store import VideoStore
+from app.store.tables.video_store import VideoStore
 from app.videos.files import MOST_RECORDED, Upload, VideoFiles
 from app.vision.frame_source import PICTURES, Facts
 from app.vision.services import VisionServices, VisionTask, ask
@@ -55,8 +55,12 @@ class VideoService:
     def views(self, run: str = "", *, is_deleted: bool = False) -> list[Json]:
         """Videos, the newest first, of one run or all."""
         trials = self._store.trials()
-        found = self._store.found(run, is_deleted=is_deleted)
-        return [_view(content, trials.get(content["id"], [])) for content in found]
+        found = self._store.listed(run, is_deleted=is_deleted).rows
+        return [_view(row.view, trials.get(row.id, [])) for row in found]
+
+    def unreadable(self, run: str = "", *, is_deleted: bool = False) -> list[Json]:
+        """Videos that cannot be read; their files stay."""
+        return self._store.listed(run, is_deleted=is_deleted).unreadable
 
     def view(self, video: str) -> Json:
         """One video."""
@@ -112,9 +116,9 @@ class VideoService:
         """The kept video of the same content; None where there is none."""
         return next(
             (
-                str(content["id"])
-                for content in self._store.found()
-                if content.get("hash") == content_hash and self.files.path(content["file"]).exists()
+                row.id
+                for row in self._store.listed().rows
+                if row.content.get("hash") == content_hash and self.files.path(row.content["file"]).exists()
             ),
             None,
         )
@@ -154,16 +158,15 @@ class VideoService:
 
     def tidy(self) -> None:
         """Says of recordings that a killed program left what became of them; old deleted videos go."""
-        for content in self._store.found():
-            if content["state"] == "recording":
-                self.salvage(content["id"], "The studio ended while this was recorded.")
-        for content in self._store.found(is_deleted=True):
-            if (
-                content["state"] == "kept"
-                and self._database.folder_time.now - self._store.deleted_at(content["id"]) > MOST_DELETED
-            ):
-                self.files.remove(content["file"])
-                self.change(content["id"], state="removed", sentence="It was deleted more than 30 days ago.")
+        for row in self._store.listed().rows:
+            if row.content["state"] == "recording":
+                self.salvage(row.id, "The studio ended while this was recorded.")
+        now = self._database.folder_time.now
+        for row in self._store.listed(is_deleted=True).rows:
+            is_old = row.deleted is not None and now - row.deleted > MOST_DELETED
+            if is_old and row.content["state"] == "kept":
+                self.files.remove(row.content["file"])
+                self.change(row.id, state="removed", sentence="It was deleted more than 30 days ago.")
 
     def salvage(self, video: str, sentence: str) -> None:
         """Keeps what there is of a recording that was broken off; its facts follow once they are read.
@@ -187,7 +190,8 @@ class VideoService:
     def make_room(self) -> None:
         """Takes the oldest recordings' pictures away where all together are too many; trials stay."""
         total = 0
-        for content in self._store.found() + self._store.found(is_deleted=True):
+        rows = (*self._store.listed().rows, *self._store.listed(is_deleted=True).rows)
+        for content in (row.content for row in rows):
             if content["kind"] != "recording" or content["state"] != "kept":
                 continue
             total += content["bytes"]
@@ -275,10 +279,10 @@ class VideoService:
         return file
 
     def _known(self, video: str) -> Json:
-        content = self._store.get(video)
-        if content is None:
+        row = self._store.get(video)
+        if row is None:
             raise NotFoundError(f"There is no video {video}.", "video")
-        return content
+        return row.view
 
 
 def _still_recorded() -> StateError:

@@ -60,6 +60,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/bridge",
         "app/emulator",
         "app/store",
+        "app/store/tables",
         "app/plans",
         "app/gaits",
         "app/jobs",

@@ -10,7 +10,7 @@ from app.bridge.states import Direction, RobotState, RunPlan, Transition
 from app.plans.plan import Plan, PlanSource
 from app.runs.plan_json import run_plan_content
 from app.store.database import Database
-from app.store.run_store import RunStore
+from app.store.tables.run_store import RunStore
 from core.findings import Approval
 from core.gait.manual_motion import manual_motion
 from core.library.library import library
@@ -95,6 +95,6 @@ def keep_run(
     plan = Plan(PlanSource.MANUAL, "", ROBOT, done.trajectory, done.way, None)
     log.begin(content, run_plan_content(plan, done.way, done.approval))
     words = {True: Direction.TO_ROBOT.value, False: Direction.FROM_ROBOT.value}
-    database.add_bytes([(run, piece.time, words[piece.to_robot], piece.data) for piece in pieces])
+    RunStore(database).add_bytes([(run, piece.time, words[piece.to_robot], piece.data) for piece in pieces])
     log.add_states([(run, one.time, one.link.value, one.robot.value, one.cause) for one in done.changes])
     return run

@@ -14,6 +14,7 @@ from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
+from app.store.tables.result_store import ResultStore
 from core.library.library import library
 from solver_jobs import SolveStatus
 from tests.support.live_tiers import FixedTier
@@ -34,7 +35,7 @@ def fill(folder: Path, edits: int = 12) -> Path:
             service.edit("walk", replace(gait, name=f"Number {number}"), "Name", None)
         document = gait_content(library()["walk"].gait)
         for number in range(40):
-            database.put_result(f"{number:064d}", {"document": json.dumps(document) * 3})
+            ResultStore(database).put(f"{number:064d}", {"document": json.dumps(document) * 3})
     return path
 
 

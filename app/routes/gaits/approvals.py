@@ -18,9 +18,10 @@ async def list_approvals(gait_id: str, studio: TheStudio) -> Json:
 
     def approvals() -> Json:
         stands = studio.gaits.open_gait(gait_id).approval
-        records = studio.gaits.approvals.all(gait_id)
+        selection = studio.gaits.approvals.all(gait_id)
         given = None if stands is None else (stands.by, stands.when)  # the record keeps its old form
-        return {"approvals": [_line(one, (one.approval.by, one.approval.when) == given) for one in records]}
+        lines = [_line(one, (one.approval.by, one.approval.when) == given) for one in selection.rows]
+        return {"approvals": lines, "unreadable": selection.unreadable}
 
     return await on_planned(studio, gait_id, approvals)
 

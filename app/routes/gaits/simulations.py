@@ -6,6 +6,7 @@ from starlette.concurrency import run_in_threadpool
 
 from app.common.json import Json
 from app.scene.simulated_ghost import simulated_blob
+from app.store.tables.table import reading
 from app.web.dependencies import TheStudio
 from core.robot.model import load_robot
 
@@ -31,6 +32,7 @@ async def read_ghost(key: str, studio: TheStudio) -> Response:
 
     def blob() -> bytes:
         content = studio.simulations.content(key)
-        return simulated_blob(load_robot(content["robot"]), content["motion"]).to_bytes()
+        with reading("This simulation cannot be read: "):
+            return simulated_blob(load_robot(content["robot"]), content["motion"]).to_bytes()
 
     return Response(await run_in_threadpool(blob), media_type="application/octet-stream")

@@ -10,7 +10,7 @@ from app.documents.gait_json import gait_content, motion_hash
 from app.documents.stored_gait import stored_gait
 from app.gaits.open_gait import OpenGait
 from app.gaits.versions import MOST_NAME, UNREADABLE, VersionKind, is_said_already
-from app.store.edit_history_store import VersionRow
+from app.store.tables.edit_history_store import VersionRow
 from app.web.dependencies import (
     RequestBody,
     Revision,
@@ -45,7 +45,9 @@ async def list_versions(gait_id: str, studio: TheStudio) -> Json:
     def versions() -> Json:
         open_gait = studio.gaits.open_gait(gait_id)
         motion = motion_hash(open_gait.gait)
-        return {"versions": [_line(row, open_gait, motion) for row in studio.gaits.versions.all(gait_id)]}
+        selection = studio.gaits.versions.all(gait_id)
+        lines = [_line(row, open_gait, motion) for row in selection.rows]
+        return {"versions": lines, "unreadable": selection.unreadable}
 
     return await on_command_thread(studio, versions)
 

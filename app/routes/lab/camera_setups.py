@@ -67,9 +67,11 @@ class Straightening(RequestBody):
 @router.get("/setups")
 async def list_setups(studio: TheStudio, deleted: bool = False) -> Json:
     """All setups, the last changed first, and what stands in a new one."""
-    views = await run_in_threadpool(lambda: studio.lab.setups.views(is_deleted=deleted))
+    setups = studio.lab.setups
+    views = await run_in_threadpool(lambda: setups.views(is_deleted=deleted))
+    unreadable = await run_in_threadpool(lambda: setups.unreadable(is_deleted=deleted))
     defaults = SetupDocument(name="new").model_dump(mode="json", exclude={"name"})
-    return {"setups": views, "defaults": defaults}
+    return {"setups": views, "unreadable": unreadable, "defaults": defaults}
 
 
 @router.post("/setups", status_code=201)

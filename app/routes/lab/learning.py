@@ -80,14 +80,18 @@ def _walks(wanted: NewLearning, studio: Studio) -> tuple[tuple[Walk, ...], str]:
 @router.get("")
 async def list_courses(studio: TheStudio) -> Json:
     """The newest courses of learning without their results, the newest first."""
-    return {"courses": await run_in_threadpool(studio.learning.found)}
+    return {
+        "courses": await run_in_threadpool(studio.learning.found),
+        "unreadable": await run_in_threadpool(studio.learning.unreadable),
+    }
 
 
 @router.get("/sets")
 async def list_sets(studio: TheStudio) -> Json:
     """The sets of parameters that were learned, the newest first; parameters are SI."""
     found = await run_in_threadpool(studio.learning.sets.found)
-    return {"sets": [one.line for one in found]}
+    unreadable = await run_in_threadpool(studio.learning.sets.unreadable)
+    return {"sets": [one.line for one in found], "unreadable": unreadable}
 
 
 @router.post("/sets/delete")

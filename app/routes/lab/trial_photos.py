@@ -31,7 +31,10 @@ class Caption(RequestBody):
 @router.get("")
 async def list_photos(trial: str, studio: TheStudio) -> Json:
     """A trial's photos, in the order in which they came."""
-    return {"photos": await run_in_threadpool(studio.photos.photos, trial)}
+    return {
+        "photos": await run_in_threadpool(studio.photos.photos, trial),
+        "unreadable": await run_in_threadpool(studio.photos.unreadable, trial),
+    }
 
 
 @router.post("", status_code=201, openapi_extra=_PICTURE)

@@ -64,7 +64,8 @@ async def list_videos(
 ) -> Json:
     """Videos, the newest first, of one run or all."""
     views = await run_in_threadpool(studio.lab.videos.views, run, is_deleted=deleted)
-    return {"videos": views, "most_bytes": MOST_BYTES}
+    unreadable = await run_in_threadpool(studio.lab.videos.unreadable, run, is_deleted=deleted)
+    return {"videos": views, "unreadable": unreadable, "most_bytes": MOST_BYTES}
 
 
 @router.post("", status_code=201)

@@ -12,7 +12,7 @@ from app.common.json import Json
 from app.runs.export import run_csv, run_mcap
 from app.runs.motion import measured_trajectory
 from app.scene.ghost import ghost_blob
-from app.store.run_store import RunFilter
+from app.store.tables.run_store import RunFilter
 from app.web.dependencies import MOST_NUMBER, RequestBody, TheStudio
 
 router = APIRouter(prefix="/api/runs", tags=["runs"])

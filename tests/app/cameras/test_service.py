@@ -11,8 +11,8 @@ from app.cameras import service as camera_service
 from app.cameras.address import CameraAddress
 from app.cameras.service import CameraService
 from app.cameras.setup_service import CameraSetupService
-from app.store.camera_setup_store import CameraSetupStore
 from app.store.database import Database
+from app.store.tables.camera_setup_store import CameraSetupStore
 from core.errors import InputError, NotFoundError
 
 RECORDS = {"name": "Lab camera", "use": "side", "setup": "", "records": True}

@@ -15,7 +15,7 @@ import pytest
 from app.emulator.emulated_robot import EmulatedRobot
 from app.runs.service import RunService
 from app.store.database import Database
-from app.store.run_store import RunFilter
+from app.store.tables.run_store import RunFilter
 from tests.support.command import run, run_json
 from tests.support.patience import patient_robot
 from tests.support.studio_process import PATIENT, PROJECT, wait_for

@@ -12,7 +12,7 @@ import pytest
 from app.emulator.emulated_robot import EmulatedRobot
 from app.runs.service import RunService
 from app.store.database import Database
-from app.store.run_store import RunFilter
+from app.store.tables.run_store import RunFilter
 from core.overrides import MOST_REASON
 from tests.support.command import run
 from tests.support.patience import patient_robot

@@ -232,7 +232,7 @@ class ApprovalMachine(RuleBasedStateMachine):
             return
         assert self.given is not None
         assert approval.waypoints_hash == self.given.waypoints
-        assert [one.approval for one in self.service.approvals.all(GAIT)].count(approval) == 1
+        assert [one.approval for one in self.service.approvals.all(GAIT).rows].count(approval) == 1
 
 
 def test_nothing_that_was_not_approved_reaches_the_wire(

@@ -12,8 +12,8 @@ from app.gaits.service import GaitService
 from app.plans.plan import Plan
 from app.simulation.problem import simulation_problem
 from app.store.database import Database
-from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles
+from app.store.tables.edit_history_store import EditHistoryStore
 from core.checks.simulation import NOT_SIMULATED, Simulated
 from core.errors import InputError, NotFoundError, StateError, StorageFullError
 from core.physics.metrics import report
@@ -63,7 +63,7 @@ def test_warnings_that_were_not_accepted_block_and_accepted_ones_are_recorded(op
     with pytest.raises(StateError, match="warnings are not accepted yet, the first: "):
         service.approve(GAIT, ApprovalRequest("Ada"))
     approved(service)
-    [record] = service.approvals.all(GAIT)
+    [record] = service.approvals.all(GAIT).rows
     assert record.approval.warnings == tuple(finding.sentence for finding in verdict.warnings)
     assert record.version == service.versions.newest_number(GAIT)
     assert record.figures["simulated"] is False
@@ -146,7 +146,7 @@ def test_approvals_are_compared_in_sentences(opened: Opened) -> None:
     service.edit(GAIT, service.document(GAIT).with_options(stop_bound=0.9), "Stop bound", None)
     assert service.open_gait(GAIT).revoked == "The gait changed (“Stop bound”), so it is no longer approved."
     approved(service, ApprovalRequest("Grace", accept_warnings=True))
-    after, before = service.approvals.all(GAIT)
+    after, before = service.approvals.all(GAIT).rows
     documents = (service.approvals.document(GAIT, before), service.approvals.document(GAIT, after))
     sides = [
         {
@@ -188,7 +188,7 @@ def test_a_gait_that_was_deleted_and_brought_back_needs_a_new_approval(
         again = opened()
         again.plan(gait_id)
         assert again.open_gait(gait_id).approval is None
-        assert len(service.approvals.all(gait_id)) == 1
+        assert len(service.approvals.all(gait_id).rows) == 1
         service.check(gait_id)
         assert service.approve(gait_id, ADA).approval is not None
 

@@ -173,7 +173,7 @@ def test_an_approval_of_the_first_form_holds_and_is_kept_in_todays(
     judge(monkeypatch, with_warnings(lambda one: replace(one, sentence="Said otherwise.")))
     again = approved()
     assert seen(again).approval == holds.approval
-    assert again.approvals.all(GAIT)[0].approval.verdict_hash == "0" * 64
+    assert again.approvals.all(GAIT).rows[0].approval.verdict_hash == "0" * 64
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from app.gaits.summaries import GaitSummaries
 from app.store.database import DATABASE, Database
 from app.store.gait_files import GaitFiles
 from app.store.schema import NEWEST
-from app.store.times_store import TimesStore, read_times
+from app.store.tables.times_store import TimesStore, read_times
 from core.library.library import library
 from core.library.robot_times import RobotTimes, library_times
 from solver_jobs import SolveStatus
@@ -76,7 +76,8 @@ def test_times_of_an_earlier_database_are_found_anew(tmp_path: Path) -> None:
         connection.execute("INSERT INTO times VALUES('mine', 'sent', 1.0, 2.0, 0.001)")
         connection.execute("ALTER TABLE open_gait DROP COLUMN revoked")
         connection.execute("ALTER TABLE history DROP COLUMN edit")
-        connection.execute(f"PRAGMA user_version = {NEWEST - 3}")
+        connection.execute("DROP TABLE set_aside")
+        connection.execute(f"PRAGMA user_version = {NEWEST - 4}")
     connection.close()
     assert read_times(tmp_path) == {}
     database = Database(path)

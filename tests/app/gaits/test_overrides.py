@@ -104,7 +104,7 @@ def test_rules_and_reason_stand_in_approval_record_and_view(approved: Opened) ->
     view = override_view(approval)
     assert view == {"rules": list(RULES), "reason": REASON, "by": "Ada"}
     assert override_words(view) == "balance, path_balance, by Ada: It walked on the real robot."
-    [record] = service.approvals.all(GAIT)
+    [record] = service.approvals.all(GAIT).rows
     assert record.approval == approval
 
 

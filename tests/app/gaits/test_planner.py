@@ -150,4 +150,4 @@ def test_approval_record_version_and_state_are_one_transaction(
     bench.planned(lambda: bench.service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True)))
     assert len(written) == 1
     assert [row[0] for row in database.rows("SELECT gait FROM approval")] == [WALK]
-    assert bench.service.versions.all(WALK)[0].kind == "approved"
+    assert bench.service.versions.all(WALK).rows[0].kind == "approved"

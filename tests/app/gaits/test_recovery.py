@@ -91,7 +91,7 @@ def test_a_saved_gait_goes_back_to_its_last_state_that_can_be_shown(
     assert recovered.gait.notes == "one"
     assert recovered.history.present.label == LAST_LABEL
     assert (line(service, gait_id)["problem"], line(service, gait_id)["way_out"]) == (None, None)
-    assert service.versions.all(gait_id)[0].document == text
+    assert service.versions.all(gait_id).rows[0].document == text
     service.undo(gait_id)
     assert service.open_gait(gait_id).gait.notes == ""
     assert reopened(tmp_path, database).open_gait(gait_id).gait.notes == ""
@@ -108,7 +108,7 @@ def test_a_built_in_gait_goes_back_to_how_it_came(kind: str, tmp_path: Path, dat
     recovered = again.recover(WALK)
     assert recovered.gait == library()[WALK].gait
     assert recovered.undo_label() == ORIGINAL_LABEL
-    assert again.versions.all(WALK)[0].document == text
+    assert again.versions.all(WALK).rows[0].document == text
     assert again.undo(WALK).gait.notes == "one"
     assert again.undo(WALK).gait.notes == ""
 
@@ -195,7 +195,7 @@ def test_undo_and_redo_skip_a_document_that_cannot_be_shown(
     assert undone.gait.notes == "one"
     assert undone.notice is not None
     assert "“Note three” cannot be shown and is skipped" in undone.notice
-    assert text in {version.document for version in service.versions.all(gait_id)}
+    assert text in {version.document for version in service.versions.all(gait_id).rows}
     assert service.redo(gait_id).gait.notes == "three"
 
 

@@ -22,6 +22,7 @@ from app.plans.plan import PlanSource
 from app.plans.provenance import result_provenance
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
+from app.store.tables.result_store import ResultStore
 from core.errors import CheckError
 from core.gait.gait import Gait, SequencePart, motion_problem
 from core.gait.gait_difference import gait_difference
@@ -67,7 +68,7 @@ def test_a_gait_that_walks_once_repeats_with_its_own_motion(tmp_path: Path, data
         "iterations": 9, "solve_seconds": 0.5, "max_violation": 1e-9,
         "trajectory": trajectory_content(solved.trajectory),
     }  # fmt: skip
-    database.put_result(motion_hash(walk), content)
+    ResultStore(database).put(motion_hash(walk), content)
     once = service.create(made_sequence("Once", [PartReference("walk", 1)], service.document)).id
     assert [part.source for part in service.plan(once).parts] == ["optimised"]
     tour = service.create(made_sequence("Twice", [PartReference("walk", 2)], service.document)).id

@@ -17,6 +17,7 @@ from app.gaits.summaries import GaitSummaries
 from app.plans.plan import PlanSource
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
+from app.store.tables.result_store import ResultStore
 from core.errors import CheckError, InputError, NotFoundError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
@@ -238,7 +239,7 @@ def test_a_stored_result_that_the_checker_does_not_confirm_is_a_draft(
     drawn = service.plan(WALK).trajectory
     assert drawn is not None
     service.edit(WALK, replace(gait, notes="as it is"), "Notes", None)
-    database.put_result(motion_hash(gait), {"trajectory": trajectory_content(drawn)})
+    ResultStore(database).put(motion_hash(gait), {"trajectory": trajectory_content(drawn)})
     assert service.plan(WALK).source is PlanSource.DRAFT
 
 

@@ -13,8 +13,8 @@ from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.gaits.versions import AUTOMATIC_EDITS, AUTOMATIC_SECONDS, MOST_NAME, VersionKind
 from app.store.database import Database
-from app.store.edit_history_store import MOST_AUTOMATIC
 from app.store.gait_files import GaitFiles
+from app.store.tables.edit_history_store import MOST_AUTOMATIC
 from app.undo.history import Author
 from core.errors import InputError, NotFoundError
 from core.library.library import library
@@ -52,7 +52,7 @@ def service(tmp_path: Path, database: Database, clock: Clock) -> GaitService:
 
 
 def kinds(service: GaitService, gait_id: str = WALK) -> list[str]:
-    return [version.kind for version in reversed(service.versions.all(gait_id))]
+    return [version.kind for version in reversed(service.versions.all(gait_id).rows)]
 
 
 def test_the_first_edit_keeps_the_gait_as_it_came(service: GaitService) -> None:
@@ -96,11 +96,11 @@ def test_saving_and_approving_make_versions_with_who_did_so(service: GaitService
     edit(service, WALK)
     service.save(WALK, ADA)
     service.save(WALK, ADA)
-    newest = service.versions.all(WALK)[0]
+    newest = service.versions.all(WALK).rows[0]
     assert (newest.number, newest.kind, newest.by) == (2, "saved", "Ada")
     service.check(MANUAL)
     service.approve(MANUAL, ApprovalRequest("Grace", accept_warnings=True))
-    approved = service.versions.all(MANUAL)[0]
+    approved = service.versions.all(MANUAL).rows[0]
     assert (approved.kind, approved.by) == ("approved", "Grace")
 
 

@@ -12,6 +12,7 @@ from app.gaits.open_gait import fresh_gait
 from app.jobs.optimisation_service import OptimisationService
 from app.jobs.repository import JobRepository
 from app.store.database import Database
+from app.store.tables.job_store import JobStore
 from app.undo.history import Author
 from core.errors import NotFoundError, StorageFullError
 from core.gait.gait import motion_problem
@@ -42,7 +43,7 @@ def refuse(*_: Any) -> None:
 def test_a_job_that_cannot_be_kept_is_not_begun(database: Database, monkeypatch: pytest.MonkeyPatch) -> None:
     queue, repository = Queue(), JobRepository(database)
     service = OptimisationService(repository, queue, refuse)  # type: ignore[arg-type]
-    monkeypatch.setattr(database, "put_job", refuse)
+    monkeypatch.setattr(JobStore, "put", refuse)
     with pytest.raises(StorageFullError):
         service.submit(fresh_gait("walk", GAIT, True, None))
     assert (queue.cancelled, repository.contents()) == (["job"], [])

@@ -11,8 +11,8 @@ from app.learning.service import LearningService
 from app.simulation.problem import simulation_key
 from app.simulation.repository import SimulationRepository
 from app.store.database import Database
-from app.store.learning_store import LearningStore
-from app.store.simulation_store import SimulationStore
+from app.store.tables.learning_store import LearningStore
+from app.store.tables.simulation_store import SimulationStore
 from core.errors import InputError, NotFoundError, StateError
 from core.physics.parameters import physics_set
 from core.robot.model import load_robot

@@ -20,6 +20,7 @@ from app.plans.plan import PlanSource
 from app.plans.provenance import provenance_view, result_provenance
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
+from app.store.tables.result_store import ResultStore
 from app.undo.history import Author
 from core.gait.gait import Gait, motion_problem
 from core.gait.provenance import Provenance
@@ -222,7 +223,7 @@ def test_an_older_result_of_which_nothing_is_known_is_not_taken_for_the_one_that
     motion = content.pop("provenance")["motion"]
     theirs = result_provenance(motion, {**content, "trajectory": {}})
     gait_id = service.create(replace(library()[WALK].gait, name="Theirs", provenance=theirs)).id
-    database.put_result(motion, content)
+    ResultStore(database).put(motion, content)
     assert service.plan(gait_id).source is PlanSource.OPTIMISED
     assert shown(service, gait_id) == (True, False)
 
@@ -232,7 +233,7 @@ def test_a_result_that_an_older_program_stored_under_what_was_asked_is_of_the_do
 ) -> None:
     gait = library()[WALK].gait
     content = result_for(gait)
-    database.put_result(asked_hash(gait), content)
+    ResultStore(database).put(asked_hash(gait), content)
     named = replace(gait, name="Named", provenance=Provenance(**content["provenance"]))
     assert shown(service, service.create(named).id) == (True, True)
     assert service.plan(WALK).source is PlanSource.LIVE

@@ -20,7 +20,7 @@ from app.remedies.run import RemedyParts
 from app.remedies.service import RemedyService
 from app.simulation.repository import SimulationRepository
 from app.store.database import DATABASE, Database
-from app.store.simulation_store import SimulationStore
+from app.store.tables.simulation_store import SimulationStore
 from core.gait.gait import Gait, heading_step
 from core.gait.recording import Recording, RecordingForm
 from core.library.library import library

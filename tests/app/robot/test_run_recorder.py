@@ -7,7 +7,6 @@ import sqlite3
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import closing
-from pathlib import Path
 
 import pytest
 
@@ -20,21 +19,23 @@ from app.runs.recovery import end_abandoned
 from app.runs.service import RunService
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
-from app.store.run_store import RunFilter, RunStore
-from app.store.run_writer import RunWriter
+from app.store.tables.run_store import RunFilter, RunStore
+from app.store.tables.run_writer import RunWriter
 from core.errors import StateError
+from tests.support import stored_contents
+from tests.support.newest_run import newest_run
 from tests.support.patience import patient_robot
 from tests.support.studio_process import wait_for
 from tests.support.virtual_robot import make_plan
 
-RECORD = {"id": "r", "started": 1.0, "started_monotonic": 10.0, "state": "running", "gait": "walk"}
+RECORD = stored_contents.run("r", state="running", started_monotonic=10.0, gait="walk", ended=None)
 
 
 class FullDisk(RunWriter):
     """A way into the database that takes nothing as long as the disk is full."""
 
-    def __init__(self, path: Path) -> None:
-        super().__init__(path)
+    def __init__(self, database: Database) -> None:
+        super().__init__(database.path, database.files)
         self.is_full = True
         self.refusals = 0
 
@@ -49,7 +50,7 @@ class FullDisk(RunWriter):
 def writer(database: Database, monkeypatch: pytest.MonkeyPatch) -> FullDisk:
     monkeypatch.setattr(run_recorder, "RETRY_SECONDS", 0.01)
     monkeypatch.setattr(run_recorder, "LAG_SHOWN", 0.0)
-    return FullDisk(database.path)
+    return FullDisk(database)
 
 
 @pytest.fixture
@@ -83,9 +84,9 @@ def test_what_the_database_does_not_take_is_kept_and_written_when_it_does(
     log_some(recorder, first=5)
     recorder.end(RECORD | {"state": "done"})
     writer.is_full = False
-    wait_for(lambda: database.runs()[0]["state"] == "done", "the record is whole")
-    assert [data for _, _, data in RunStore(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
-    assert [cause for *_, cause in RunStore(database).states_of("r")] == ["change 1"]
+    wait_for(lambda: newest_run(database)["state"] == "done", "the record is whole")
+    assert [piece.data for piece in RunStore(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
+    assert [state.cause for state in RunStore(database).states_of("r")] == ["change 1"]
 
 
 def test_a_record_that_lags_is_told_of_until_it_has_caught_up(
@@ -109,9 +110,9 @@ def test_where_memory_has_an_end_the_record_says_what_it_lacks(
     assert "has a hole: 2 bytes" in str(recorder.trouble)
     recorder.end(RECORD | {"state": "done"})
     writer.is_full = False
-    wait_for(lambda: database.runs()[0]["state"] == "done", "the record is ended")
-    assert database.runs()[0]["left_out"] == 2
-    assert [data for _, _, data in RunStore(database).bytes_of("r")] == [b"0", b"1", b"2"]
+    wait_for(lambda: newest_run(database)["state"] == "done", "the record is ended")
+    assert newest_run(database)["left_out"] == 2
+    assert [piece.data for piece in RunStore(database).bytes_of("r")] == [b"0", b"1", b"2"]
     recorder.begin(RECORD | {"id": "next"})
     assert recorder.trouble is None
 
@@ -129,7 +130,7 @@ def test_another_programs_long_write_costs_the_record_nothing(database: Database
     other.close()
     end.join()
     assert len(RunStore(database).bytes_of("r")) == 5
-    assert database.runs()[0]["state"] == "done"
+    assert newest_run(database)["state"] == "done"
 
 
 def test_the_end_of_the_program_does_not_wait_for_ever(
@@ -159,7 +160,7 @@ def test_a_run_whose_record_cannot_be_begun_is_not_sent(database: Database) -> N
         with pytest.raises(StateError, match=r"record of the run cannot be begun.*no such table"):
             kept.send(plan, RecordedRun(origin, {"robot": "deltawalker"}), "Ada")
         assert kept.bridge.snapshot.robot is RobotState.ARMED
-        assert database.runs() == []
+        assert RunStore(database).newest() is None
 
 
 def journals(database: Database) -> list[str]:
@@ -180,12 +181,12 @@ def test_what_the_database_never_got_is_completed_from_the_journal_of_a_program_
     log_some(recorder, first=5)
     recorder.note([change(2)])
     end_abandoned(database)
-    assert database.runs()[0]["state"] == "running"  # it lives
+    assert newest_run(database)["state"] == "running"  # it lives
     recorder.close()
     end_abandoned(database)
-    assert [data for _, _, data in RunStore(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
-    assert [cause for *_, cause in RunStore(database).states_of("r")] == ["change 1", "change 2"]
-    assert database.runs()[0]["state"] == "interrupted"
+    assert [piece.data for piece in RunStore(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
+    assert [state.cause for state in RunStore(database).states_of("r")] == ["change 1", "change 2"]
+    assert newest_run(database)["state"] == "interrupted"
     assert journals(database) == []
 
 
@@ -199,7 +200,7 @@ def test_a_run_whose_end_the_database_never_got_ends_as_it_did(
     recorder.close()
     assert journals(database) == ["r.journal"]
     end_abandoned(database)
-    assert database.runs()[0]["state"] == "done"
+    assert newest_run(database)["state"] == "done"
 
 
 @pytest.mark.parametrize("tail", [bytes(40), b"\x07" + b"\x01" * 40, b"\x02" + bytes(12)])
@@ -211,13 +212,14 @@ def test_what_a_loss_of_power_left_at_a_journals_end_is_no_entry(database: Datab
     with (database.path.parent / "running" / "r.journal").open("ab") as file:
         file.write(tail)
     end_abandoned(database)
-    assert RunStore(database).bytes_of("r") == [(11.0, "from robot", b"j,")]
+    [piece] = RunStore(database).bytes_of("r")
+    assert (piece.time, piece.direction, piece.data) == (11.0, "from robot", b"j,")
     assert RunStore(database).running() == ()
 
 
 def test_an_entry_that_was_cut_off_is_left_out(database: Database) -> None:
     data = database.path.parent
-    database.put_run(RECORD)
+    RunStore(database).put(RECORD)
     journal = RunJournal(data, "r")
     journal.add(Entry(EntryKind.FROM_ROBOT, 11.0, b"whole"))
     journal.add(Entry(EntryKind.FROM_ROBOT, 12.0, b"cut off"))
@@ -225,7 +227,8 @@ def test_an_entry_that_was_cut_off_is_left_out(database: Database) -> None:
     path = data / "running" / "r.journal"
     path.write_bytes(path.read_bytes()[:-3])
     end_abandoned(database)
-    assert RunStore(database).bytes_of("r") == [(11.0, "from robot", b"whole")]
+    [piece] = RunStore(database).bytes_of("r")
+    assert (piece.time, piece.direction, piece.data) == (11.0, "from robot", b"whole")
 
 
 @pytest.mark.parametrize("state", [None, "done"])
@@ -234,13 +237,14 @@ def test_a_kill_before_the_record_began_or_after_it_was_whole_leaves_no_journal(
 ) -> None:
     journal = RunJournal(database.path.parent, "r")
     if state is not None:
-        database.put_run(RECORD | {"state": state})
+        RunStore(database).put(RECORD | {"state": state})
     end_abandoned(database)
     assert journals(database) == ["r.journal"]  # its program lives
     journal.close(is_in_database=False)
     end_abandoned(database)
     assert journals(database) == []
-    assert [run["state"] for run in database.runs()] == ([] if state is None else [state])
+    newest = RunStore(database).newest()
+    assert (None if newest is None else newest["state"]) == state
 
 
 def test_a_journal_that_was_taken_for_abandoned_before_it_was_locked_is_made_again(
@@ -265,7 +269,7 @@ def test_only_runs_whose_program_is_gone_are_called_interrupted_also_while_the_s
 ) -> None:
     more = {"gait_name": "Walk", "waypoints_hash": "", "by": "Ada", "sentence": "", "ended": None}
     for run in ("living", "old"):
-        database.put_run(RECORD | more | {"id": run})
+        RunStore(database).put(RECORD | more | {"id": run})
     living, service = RunJournal(database.path.parent, "living"), RunService(database)
 
     def states() -> dict[str, str]:
@@ -282,4 +286,4 @@ def test_a_data_folder_that_takes_no_journal_begins_no_run(database: Database) -
     with pytest.raises(StateError, match="record of the run cannot be begun"):
         recorder.begin(RECORD)
     recorder.close()
-    assert database.runs() == []
+    assert RunStore(database).newest() is None

@@ -19,8 +19,9 @@ from app.runs.export import run_csv, run_mcap
 from app.runs.motion import measured_trajectory
 from app.runs.service import RunService
 from app.store.database import Database
-from app.store.run_store import RunFilter, RunStore
+from app.store.tables.run_store import RunFilter, RunStore
 from core.errors import NotFoundError, StateError
+from tests.support.newest_run import newest_run
 from tests.support.ran_robot import STARTED, keep_run, ran
 from tests.support.studio_process import StudioProcess, wait_for
 
@@ -69,7 +70,7 @@ def test_runs_are_filtered_by_gait_operator_state_and_day(service: RunService, d
 def test_a_note_survives_the_end_of_its_run(service: RunService, database: Database) -> None:
     run = keep_run(database)
     assert service.note(run, "Slipped on the mat.")["note"] == "Slipped on the mat."
-    database.put_run(dict(database.runs()[0]))  # what the recorder does when a run ends
+    RunStore(database).put(dict(newest_run(database)))  # what the recorder does when a run ends
     assert service.summary(run)["note"] == "Slipped on the mat."
 
 
@@ -170,9 +171,10 @@ def test_the_recorder_keeps_each_change_of_state_once(database: Database) -> Non
     recorder.end(record)
     recorder.note(changes)
     recorder.close()
-    causes = [state[3] for state in RunStore(database).states_of("r")]
+    causes = [state.cause for state in RunStore(database).states_of("r")]
     assert causes == ["change 2", "change 3", "change 4"]
-    assert RunStore(database).bytes_of("r") == [(11.0, "to robot", b"<r>")]
+    [piece] = RunStore(database).bytes_of("r")
+    assert (piece.time, piece.direction, piece.data) == (11.0, "to robot", b"<r>")
 
 
 @pytest.fixture(scope="module")

@@ -21,10 +21,11 @@ from app.simulation.problem import (
 )
 from app.simulation.repository import SimulationRepository
 from app.store.database import Database
-from app.store.simulation_store import MOST_KEPT, SimulationRow, SimulationStore
+from app.store.tables.simulation_store import MOST_KEPT, SimulationRow, SimulationStore
 from core.errors import CheckError, NotFoundError
 from core.library.library import library
 from core.physics.parameters import PhysicsSet, physics_set, physics_sets
+from tests.support import stored_contents
 from tests.support.simulated_walk import GAIT, no_solver, walk_plan, walk_report
 
 
@@ -44,6 +45,7 @@ def put(
     physics = physics_set(name)
     row = row_of(plan, physics, made)
     content = {
+        **stored_contents.simulation(row.key, made),
         "program": VERSION,
         "physics": physics_content(physics),
         "report": report_content(walk_report()),
@@ -147,7 +149,7 @@ def test_a_simulation_that_an_earlier_program_kept_is_found_by_the_key_that_it_h
     kept: SimulationRepository,
 ) -> None:
     old = replace(row_of(walk_plan(), physics_set()), key=key_before(walk_plan(), physics_set()))
-    kept.put(old, {"report": report_content(walk_report()), "variations": None})
+    kept.put(old, {**stored_contents.simulation(old.key), "report": report_content(walk_report())})
     assert kept.is_fresh(GAIT, old.key, walk_plan())
     assert kept.simulated(walk_plan()) is not None
     assert not kept.is_fresh(GAIT, old.key, shorter_plan())
@@ -167,7 +169,8 @@ def test_a_simulation_that_is_not_kept_is_named_with_the_remedy(kept: Simulation
 def test_the_oldest_simulations_go(database: Database) -> None:
     log = SimulationStore(database)
     for number in range(MOST_KEPT + 1):
-        log.put(SimulationRow(GAIT, f"key {number}", "w", "scales", float(number)), {})
+        content = stored_contents.simulation(f"key {number}")
+        log.put(SimulationRow(GAIT, f"key {number}", "w", "scales", float(number)), content)
     rows = log.of_gait(GAIT)
     assert (len(rows), rows[0].key) == (MOST_KEPT, f"key {MOST_KEPT}")
     assert log.content("key 0") is None

@@ -13,7 +13,7 @@ from app.jobs.repository import JobRepository
 from app.simulation.repository import SimulationRepository
 from app.simulation.service import SimulationService
 from app.store.database import Database
-from app.store.simulation_store import SimulationStore
+from app.store.tables.simulation_store import SimulationStore
 from core.errors import NotFoundError, StateError
 from core.library.library import library
 from core.physics.motion import SimulatedMotion

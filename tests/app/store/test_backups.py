@@ -12,14 +12,17 @@ from typing import Any
 import pytest
 
 from app.common.json import Json
-from app.store import backups, database_keeper
+from app.store import backups
 from app.store.backups import DAILY, MIGRATION, MOST, found_backups, last_good, make_backup
 from app.store.database import Database
-from app.store.database_keeper import DatabaseKeeper
 from app.store.folder_lock import StudioLock
 from app.store.quick_check import damage_of
 from app.store.restore import restore
 from app.store.schema import NEWEST
+from app.store.tables.job_store import JobStore
+from app.store.tables.result_store import ResultStore
+from app.studio import database_keeper
+from app.studio.database_keeper import DatabaseKeeper
 from core.errors import InputError, NotFoundError, StorageDamagedError, StorageError, StorageFullError
 from core.library.library import library
 from tests.app.store.test_old_database import old_database
@@ -37,7 +40,7 @@ def without_room(*_: Any) -> Any:
 
 def test_a_backup_holds_what_was_acknowledged_also_while_the_database_is_open(tmp_path: Path) -> None:
     with closing(Database(tmp_path / "studio.sqlite3")) as database:
-        database.put_result("x", {"a": 1})
+        ResultStore(database).put("x", {"a": 1})
         backup = make_backup(database.path, DAILY)
     assert found_backups(tmp_path) == (backup,)
     assert [path.name for path in backup.path.parent.iterdir()] == [backup.path.name]
@@ -170,7 +173,7 @@ def test_a_backup_is_made_once_a_day_and_only_of_something_new(tmp_path: Path) -
         clock.pass_seconds(database_keeper.DAY_SECONDS + 1)
         keeper.look()
         assert found_backups(tmp_path) == (first,)
-        database.put_result("x", {})
+        ResultStore(database).put("x", {})
         keeper.look()
         assert len(found_backups(tmp_path)) == 2
 
@@ -212,7 +215,7 @@ def test_a_damaged_database_is_read_where_it_can_be_and_takes_nothing(tmp_path: 
         with pytest.raises(StorageDamagedError, match="footfall restore"):
             service.edit("walk", library()["walk"].gait, "Name", None)
         with pytest.raises(StorageDamagedError, match=good.path.name):
-            database.jobs()
+            JobStore(database).newest(50)
         keeper.look()
     assert [backup.path for backup in found_backups(tmp_path)] == [good.path]
 
@@ -227,7 +230,7 @@ def test_damage_that_is_found_on_the_way_is_told_once(tmp_path: Path) -> None:
         database.rows("PRAGMA shrink_memory")
         for _ in range(2):
             with pytest.raises(StorageDamagedError, match="no good backup"):
-                database.result("0" * 64)
+                ResultStore(database).get("0" * 64)
     assert len(told) == 1
 
 
@@ -242,15 +245,15 @@ def test_a_file_that_is_no_database_is_refused_with_the_way_back(tmp_path: Path,
     assert path.read_bytes() == content
 
 
-def test_text_that_was_overwritten_is_damage(tmp_path: Path) -> None:
+def test_text_that_is_none_damages_its_row_alone(tmp_path: Path) -> None:
     path = tmp_path / "studio.sqlite3"
     with closing(Database(path)) as database:
         for number, content in enumerate((b"\xff\xfe", b"\0\0\0")):
             with database.writing() as connection:
                 connection.execute("INSERT INTO result VALUES(?, CAST(? AS TEXT))", (str(number), content))
-        for number in range(2):
-            with pytest.raises(StorageDamagedError):
-                database.result(str(number))
+        assert [ResultStore(database).get(str(number)) for number in range(2)] == [None, None]
+        assert [damage.table for damage in database.row_damages.values()] == ["result", "result"]
+        assert database.damage is None
 
 
 def test_going_back_keeps_the_damaged_file_aside(tmp_path: Path) -> None:
@@ -287,7 +290,7 @@ def test_without_a_backup_one_can_begin_anew(tmp_path: Path) -> None:
         Database(path)
     assert restore(tmp_path, None) is not None
     with closing(Database(path)) as database:
-        assert database.jobs() == []
+        assert JobStore(database).newest(50).rows == ()
 
 
 def test_nobody_goes_back_under_a_program_that_has_the_folder_or_its_database(tmp_path: Path) -> None:

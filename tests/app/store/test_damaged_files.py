@@ -14,6 +14,7 @@ from app.gaits.service import GaitService
 from app.plans.provenance import result_provenance
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
+from app.store.tables.job_store import JobStore
 from app.studio.studio import Studio
 from core.gait.gait import SequencePart, motion_problem
 from core.library.library import library
@@ -30,7 +31,7 @@ def put(folder: Path, gait_id: str, text: str) -> None:
 def test_a_job_of_a_gait_whose_file_is_damaged_is_shown_as_out_of_date(tmp_path: Path) -> None:
     put(tmp_path, "mine", "{ damaged")
     database = Database(tmp_path / "studio.sqlite3")
-    database.put_job(
+    JobStore(database).put(
         {"kind": "optimise", "id": "one", "created": 1.0, "gait": "mine", "motion": "0" * 64, "state": "done"}
     )
     database.close()
@@ -46,7 +47,7 @@ def test_a_job_of_a_gait_whose_file_is_damaged_is_shown_as_out_of_date(tmp_path:
 def test_a_greeting_opens_no_gait_for_its_jobs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     database = Database(tmp_path / "studio.sqlite3")
     walk = motion_hash(library()["walk"].gait)
-    database.put_job(
+    JobStore(database).put(
         {"kind": "optimise", "id": "one", "created": 1.0, "gait": "walk", "motion": walk, "state": "done"}
     )
     database.close()

@@ -118,7 +118,7 @@ def check(folder: Path, known: Acknowledged) -> None:
                 saved = number_of(parse_gait(file.read_bytes(), file.name).name)
                 assert known.saves[gait] <= saved <= known.edits[gait]
                 known.saves[gait] = saved
-            held = {version.number: version for version in service.versions.all(gait)}
+            held = {version.number: version for version in service.versions.all(gait).rows}
             for (owner, number), content in known.versions.items():
                 if owner == gait:
                     assert number_of(json.loads(held[number].document)["name"]) == content

@@ -14,10 +14,12 @@ from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
+from app.store.tables.job_store import JobStore
 from core.errors import InputError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
 from solver_jobs import SolveStatus
+from tests.support import stored_contents
 from tests.support.live_tiers import FixedTier
 
 GAIT = "walk"
@@ -47,7 +49,7 @@ def old_database(path: Path, cursor: int) -> None:
         rows = [(GAIT, at, f"Name to {at}", json.dumps(gait_content(named(at)))) for at in range(4)]
         connection.executemany("INSERT INTO history VALUES(?,?,?,?)", rows)
         connection.execute("INSERT INTO open_gait VALUES(?,?,?,NULL,NULL)", (GAIT, 9, cursor))
-        connection.execute("INSERT INTO job VALUES('j', 1.0, '{}')")
+        connection.execute("INSERT INTO job VALUES('j', 1.0, ?)", (json.dumps(stored_contents.job("j")),))
     connection.close()
 
 
@@ -75,7 +77,7 @@ def test_undo_and_redo_go_on_where_the_cursor_stood(tmp_path: Path, cursor: int)
         assert service.undo(GAIT).gait == named(at)
     with pytest.raises(StateError, match="nothing to undo"):
         service.undo(GAIT)
-    assert len(database.jobs()) == 1
+    assert len(JobStore(database).newest(50).rows) == 1
     database.close()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import sqlite3
 from collections.abc import Iterator
@@ -13,11 +14,12 @@ from typing import Any
 import pytest
 
 from app.common.json import Json
-from app.store import database_keeper
 from app.store.backups import found_backups
 from app.store.database import DATABASE, Database
-from app.store.database_keeper import CHECKED_AT_ONCE, DatabaseKeeper
 from app.store.quick_check import damage_of
+from app.store.tables.result_store import ResultStore
+from app.studio import database_keeper
+from app.studio.database_keeper import CHECKED_AT_ONCE, DatabaseKeeper
 from core.errors import StorageDamagedError, StorageError
 from tests.app.server.test_storage_http import MANUAL, client_of, edited
 from tests.support.spoilt_database import overwrite
@@ -33,7 +35,8 @@ def sound(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("large") / DATABASE
     Database(path).close()
     with closing(sqlite3.connect(path)) as connection, connection:
-        connection.execute("INSERT INTO result VALUES('large', zeroblob(?))", (CHECKED_AT_ONCE,))
+        content = json.dumps({"explanation": ["x" * CHECKED_AT_ONCE]})
+        connection.execute("INSERT INTO result VALUES('large', ?)", (content,))
     return path
 
 
@@ -112,11 +115,11 @@ def test_nothing_is_reported_of_a_sound_large_database(
         with closing(keeper):
             keeper.start()
             assert held.begun.wait(HELD_SECONDS)
-            database.put_result("new", {"stored": "during the check"})
+            ResultStore(database).put("new", {"stored": "during the check"})
             held.may_go_on.set()
             wait_for(lambda: len(found_backups(whole.parent)) == 1, "the backup after the check")
             assert keeper.view() == {"damaged": False, "sentence": None}
-        database.put_result("newer", {"stored": "after the check"})
+        ResultStore(database).put("newer", {"stored": "after the check"})
     assert (told, caplog.records) == ([], [])
 
 
@@ -127,13 +130,13 @@ def test_damage_ends_writing_from_the_moment_that_the_check_finds_it(
     with closing(Database(damaged)) as database:
         with closing(DatabaseKeeper(database, told.append, lambda: True)) as keeper:
             keeper.start()
-            database.put_result("before", {})
+            ResultStore(database).put("before", {})
             held.may_go_on.set()
             wait_for(lambda: bool(told), "the report")
             assert told == [keeper.view()]
             with pytest.raises(StorageDamagedError, match="Nothing can be stored"):
-                database.put_result("after", {})
-            assert database.result("before") == {}
+                ResultStore(database).put("after", {})
+            assert ResultStore(database).get("before") == {}
         assert [record.getMessage() for record in caplog.records] == [keeper.view()["sentence"]]
     assert found_backups(damaged.parent) == ()
 
@@ -152,7 +155,7 @@ def test_a_check_that_fails_is_reported_and_the_database_stays_in_use(
         with closing(keeper):
             keeper.start()
             wait_for(lambda: bool(told), "the report")
-        database.put_result("new", {})
+        ResultStore(database).put("new", {})
     sentence = "The database could not be checked. The disk does not answer."
     assert told == [{"damaged": False, "sentence": sentence}]
 

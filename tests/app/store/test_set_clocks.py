@@ -19,17 +19,21 @@ from app.robot.transition_times import TransitionTimes
 from app.robot.views import RunOrigin
 from app.store.backups import DAILY, MOST, found_backups, make_backup
 from app.store.database import Database
-from app.store.database_keeper import DAY_SECONDS, DatabaseKeeper
 from app.store.folder_time import FILE, FolderTime
 from app.store.gait_files import GaitFiles
-from app.store.learning_store import LearningStore
-from app.store.run_store import RunFilter, RunStore
-from app.store.simulation_store import SimulationRow, SimulationStore
-from app.store.trial_store import TrialStore
-from app.store.video_store import VideoStore
+from app.store.tables.job_store import JobStore
+from app.store.tables.learning_store import LearningStore
+from app.store.tables.result_store import ResultStore
+from app.store.tables.run_store import RunFilter, RunStore
+from app.store.tables.simulation_store import SimulationRow, SimulationStore
+from app.store.tables.trial_store import TrialStore
+from app.store.tables.video_store import VideoStore
+from app.studio.database_keeper import DAY_SECONDS, DatabaseKeeper
 from app.videos.service import MOST_DELETED, VideoService
 from app.vision.services import VisionServices
 from core.library.library import library
+from tests.support import stored_contents as stored
+from tests.support.newest_run import newest_run
 from tests.support.patience import patient_robot
 from tests.support.set_clock import SetClock
 from tests.support.studio_process import wait_for
@@ -63,8 +67,8 @@ def test_a_run_ends_as_much_later_than_it_began_as_a_watch_counts(
         kept.send(plan, RecordedRun(origin, None), "Ada")
         clock.pass_seconds(3.5)
         clock.step(step)
-        wait_for(lambda: bool(database.runs()[0]["ended"]), "the run has ended")
-    record = database.runs()[0]
+        wait_for(lambda: bool(newest_run(database)["ended"]), "the run has ended")
+    record = newest_run(database)
     assert record["ended"] == record["started"] + 3.5
 
 
@@ -112,41 +116,41 @@ def test_jobs_have_the_newest_first_also_after_the_studio_was_started_again(
 
 
 def put_run(database: Database, key: str, made: float) -> None:
-    content = {"id": key, "started": made, "ended": made, "state": "done", "gait": "w", "gait_name": "W"}
-    RunStore(database).begin({**content, "by": "Ada"}, None)
+    RunStore(database).begin(stored.run(key, made), None)
 
 
 def put_simulation(database: Database, key: str, made: float) -> None:
-    SimulationStore(database).put(SimulationRow("walk", key, "w", "usual", made), {})
+    SimulationStore(database).put(
+        SimulationRow("walk", key, "w", "usual", made), stored.simulation(key, made)
+    )
 
 
 def put_learning(database: Database, key: str, made: float) -> None:
     store = LearningStore(database)
     for state in ("running", "done"):
-        store.put({"id": key, "made": made, "state": state})
+        store.put(stored.learning(key, made, state))
 
 
 def put_job(database: Database, key: str, made: float) -> None:
     for state in ("queued", "done"):
-        database.put_job({"id": key, "created": made, "state": state})
+        JobStore(database).put(stored.job(key, made, state))
 
 
 def put_trial(database: Database, key: str, made: float) -> None:
-    TrialStore(database).add({"id": key, "made": made}, "")
+    TrialStore(database).add(stored.trial(key, made), "")
 
 
 def put_video(database: Database, key: str, made: float) -> None:
-    VideoStore(database).put({"id": key, "made": made, "run": ""})
+    VideoStore(database).put(stored.video(key, made))
 
 
 LISTS: list[tuple[Callable[[Database, str, float], None], Callable[[Database], list[str]]]] = [
-    (put_run, lambda database: [r.content["id"] for r in RunStore(database).found(RunFilter(), 0, 9)]),
-    (put_run, lambda database: [content["id"] for content in database.runs(9)]),
-    (put_job, lambda database: [content["id"] for content in database.jobs(9)]),
-    (put_learning, lambda database: [content["id"] for content in LearningStore(database).found(9)]),
+    (put_run, lambda database: [row.id for row in RunStore(database).listed(RunFilter(), 0, 9).rows]),
+    (put_job, lambda database: [row.id for row in JobStore(database).newest(9).rows]),
+    (put_learning, lambda database: [row.id for row in LearningStore(database).newest(9).rows]),
     (put_simulation, lambda database: [row.key for row in SimulationStore(database).of_gait("walk")]),
-    (put_trial, lambda database: [row.content["id"] for row in TrialStore(database).found()]),
-    (put_video, lambda database: [content["id"] for content in VideoStore(database).found()]),
+    (put_trial, lambda database: [row.id for row in TrialStore(database).listed(lambda row: row).rows]),
+    (put_video, lambda database: [row.id for row in VideoStore(database).listed().rows]),
 ]
 
 
@@ -213,7 +217,7 @@ def test_backups_are_made_once_a_day_whatever_the_clock_is_set_to(
         keeper.look()
     assert len(found_backups(database.path.parent)) == 1
     clock.step(step)
-    database.put_result("x", {})
+    ResultStore(database).put("x", {})
     keeper.look()
     assert len(found_backups(database.path.parent)) == 1
     clock.pass_seconds(DAY_SECONDS)

@@ -19,6 +19,7 @@ from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.store.plain_file import write_atomically
 from app.store.storage_errors import file_error, storage_error
+from app.store.tables.result_store import ResultStore
 from core.errors import InputError, StorageDamagedError, StorageError, StorageFullError
 from core.library.library import library
 from tests.support.spoilt_database import service_on, take_more, take_no_more
@@ -197,6 +198,6 @@ def test_a_database_that_another_program_writes_to_says_so(
         with closing(sqlite3.connect(database.path)) as other:
             other.execute("BEGIN IMMEDIATE")
             with pytest.raises(StorageError, match="locked"):
-                database.put_result("x", {})
-        database.put_result("x", {"a": 1})
-        assert database.result("x") == {"a": 1}
+                ResultStore(database).put("x", {})
+        ResultStore(database).put("x", {"a": 1})
+        assert ResultStore(database).get("x") == {"a": 1}

@@ -15,6 +15,7 @@ import pytest
 from app.store.database import DATABASE, Database
 from app.store.folder_lock import STUDIO, StudioLock
 from app.store.gait_files import GaitFiles
+from app.store.tables.result_store import ResultStore
 from app.studio.start_check import check_start
 from core.errors import FootfallError
 from core.library.library import library
@@ -183,8 +184,8 @@ def test_a_database_that_another_program_opens_meanwhile_stays(
 
     monkeypatch.setattr("app.studio.start_check.VideoFiles", other_program)
     check_start(tmp_path)
-    opened[0].put_result("motion", {"kept": True})
+    ResultStore(opened[0]).put("motion", {"kept": True})
     opened[0].close()
     with closing(Database(tmp_path / DATABASE)) as database:
-        assert database.result("motion") == {"kept": True}
+        assert ResultStore(database).get("motion") == {"kept": True}
     assert not (tmp_path / STUDIO).exists()

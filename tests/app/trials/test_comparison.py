@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.store.trial_reference_store import TrialReferenceStore
+from app.store.tables.trial_reference_store import TrialReferenceStore
 from app.trials.comparison import TrialComparison
 from app.trials.planned import sent_problem
 from app.trials.service import TrialDescription, TrialService

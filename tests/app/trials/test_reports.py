@@ -14,7 +14,7 @@ import pytest
 from app.export.drawing import dashed
 from app.runs.service import RunService
 from app.store.database import Database
-from app.store.trial_reference_store import TrialReferenceStore
+from app.store.tables.trial_reference_store import TrialReferenceStore
 from app.trials import comparison as limits
 from app.trials.comparison import TrialComparison
 from app.trials.photos import TrialPhotos

@@ -9,7 +9,7 @@ import pytest
 
 from app.runs.record import RunRecord, read_record
 from app.store.database import Database
-from app.store.run_store import RunStore
+from app.store.tables.run_store import RunStore
 from app.trials.run_trial import run_trial
 from app.vision.tracking import VideoTrack
 from core.errors import InputError, StateError

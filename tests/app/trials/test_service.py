@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.store.trial_store import TrialStore
+from app.store.tables.trial_store import TrialStore
 from app.trials.planned import PlannedFeet
 from app.trials.service import TrialDescription, TrialService, compared
 from app.trials.tables import COLUMNS, table_csv, table_latex
@@ -167,7 +167,7 @@ def in_one_point(track: FootTrack) -> FootTrack:
 def test_a_trial_without_figures_is_refused_and_not_kept(service: TrialService, database: Database) -> None:
     with pytest.raises(InputError, match="one point"):
         service.add(in_one_point(TRACK), WORDS, straight_plan())
-    assert TrialStore(database).found() == ()
+    assert TrialStore(database).listed(lambda row: row).rows == ()
     assert service.lines() == []
 
 
@@ -175,7 +175,7 @@ def test_a_kept_trial_without_figures_is_marked_and_the_list_goes_on(
     service: TrialService, database: Database
 ) -> None:
     good = service.add(TRACK, WORDS, straight_plan())["id"]
-    row = TrialStore(database).found()[0]
+    row = TrialStore(database).listed(lambda row: row).rows[0]
     bad = {**row.content, "id": "bad", "name": "all in one point"}
     TrialStore(database).add(bad, format_track_csv(in_one_point(TRACK)))
     assert [line["id"] for line in service.lines()] == [good]

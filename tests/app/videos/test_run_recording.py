@@ -15,7 +15,7 @@ import pytest
 from app.bridge.states import LinkState, RobotSnapshot, RobotState
 from app.cameras.service import SIDE, CameraService
 from app.store.database import Database
-from app.store.run_store import RunStore
+from app.store.tables.run_store import RunStore
 from app.videos.run_recording import RunRecordings
 from app.videos.service import VideoService
 from app.vision.recorder import Recorded, RecordingJob

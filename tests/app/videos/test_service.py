@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.store.video_store import VideoStore
+from app.store.tables.video_store import VideoStore
 from app.videos import service as video_service
 from app.videos.files import Upload
 from app.videos.service import VideoService

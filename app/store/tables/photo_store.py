@@ -1,9 +1,35 @@
 """Photos of trials in the database: what is known of each; the pictures are files."""
 
 import json
+from dataclasses import dataclass
 
 from app.common.json import Json
 from app.store.database import Database
+from app.store.tables.contents import PHOTO
+from app.store.tables.shapes import MOMENT, Maybe, Stored, text
+from app.store.tables.table import Selection, Table, TableKind, key_of
+
+
+@dataclass(frozen=True)
+class PhotoRow:
+    """A photo as it is kept."""
+
+    id: str
+    trial: str
+    content: Json
+    deleted: float | None
+
+    def __post_init__(self) -> None:
+        key_of(self, self.content, "id", "trial")
+
+
+PHOTOS = TableKind(
+    "trial_photo",
+    "photo",
+    ("id",),
+    {"id": text, "trial": text, "content": Stored(PHOTO), "deleted": Maybe(MOMENT)},
+    PhotoRow,
+)
 
 
 class PhotoStore:
@@ -14,7 +40,7 @@ class PhotoStore:
     """
 
     def __init__(self, database: Database) -> None:
-        self._database = database
+        self._database, self._table = database, Table(database, PHOTOS)
 
     def add(self, content: Json) -> None:
         """Stores a new photo of `content["trial"]`."""
@@ -24,17 +50,17 @@ class PhotoStore:
                 (content["id"], content["trial"], content["made"], json.dumps(content, allow_nan=False)),
             )
 
-    def of_trial(self, trial: str) -> list[Json]:
+    def of_trial(self, trial: str) -> Selection[PhotoRow]:
         """A trial's photos that are not deleted, in the order in which they came."""
-        rows = self._database.rows(
-            "SELECT content FROM trial_photo WHERE trial=? AND deleted IS NULL ORDER BY rowid", trial
-        )
-        return [json.loads(row[0]) for row in rows]
+        return self._table.select("WHERE trial=? AND deleted IS NULL ORDER BY rowid", trial)
 
-    def get(self, trial: str, photo: str) -> Json | None:
-        """One photo, also a deleted one; None where the trial has none of that id."""
-        rows = self._database.rows("SELECT content FROM trial_photo WHERE id=? AND trial=?", photo, trial)
-        return json.loads(rows[0][0]) if rows else None
+    def get(self, trial: str, photo: str) -> PhotoRow | None:
+        """One photo, also a deleted one; None where the trial has none of that id.
+
+        Raises:
+            DamagedRowError: it cannot be read.
+        """
+        return self._table.first("WHERE id=? AND trial=?", photo, trial)
 
     def change(self, content: Json) -> None:
         """Stores what is known of a photo now."""
@@ -44,5 +70,4 @@ class PhotoStore:
 
     def put_deleted(self, photo: str, deleted: float | None) -> None:
         """Takes a photo away, or brings it back with None."""
-        with self._database.writing() as connection:
-            connection.execute("UPDATE trial_photo SET deleted=? WHERE id=?", (deleted, photo))
+        self._table.put_deleted(deleted, id=photo)

@@ -11,6 +11,7 @@ from app.store.backups import DAILY, found_backups, make_backup
 from app.store.database import Database
 from app.store.quick_check import damage_of
 from app.store.storage_errors import left_undone
+from app.store.tables.unreadable import Unreadable
 from core.errors import FootfallError, StorageDamagedError, StorageError
 
 logger = logging.getLogger(__name__)
@@ -42,6 +43,7 @@ class DatabaseKeeper:
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._work, name="database keeper", daemon=True)
         database.damaged = self._tell
+        self.unreadable = Unreadable(database)
         self._is_checked = _size(database.path) <= CHECKED_AT_ONCE
         if self._is_checked:
             self._check()
@@ -51,9 +53,15 @@ class DatabaseKeeper:
         self._thread.start()
 
     def view(self) -> Json:
-        """What is wrong as JSON content: whether the file is damaged, and a sentence or None."""
-        damage = self._database.damage
-        return {"damaged": damage is not None, "sentence": damage or self._trouble}
+        """Everything that is wrong, as JSON content.
+
+        Returns:
+            Whether the file is damaged, and a sentence or None; where rows cannot be read, these as well.
+        """
+        damage, unreadable = self._database.damage, self.unreadable.view()
+        sentence = damage or self._trouble or _row_sentence(unreadable["count"])
+        view = {"damaged": damage is not None, "sentence": sentence}
+        return {**view, "unreadable": unreadable} if unreadable["count"] else view
 
     def close(self) -> None:
         """Ends; a backup that is being made is made."""
@@ -83,6 +91,8 @@ class DatabaseKeeper:
     def _work(self) -> None:
         if not self._is_checked:
             self._check()
+        with left_undone("The entries of the database are not looked through"):
+            self.unreadable.look(lambda: not self._closing.is_set() and self._database.damage is None)
         self.look()
         while not self._closing.wait(LOOK_SECONDS):
             self.look()
@@ -118,6 +128,13 @@ class DatabaseKeeper:
 
     def _tell(self) -> None:
         self._changed(self.view())
+
+
+def _row_sentence(count: int) -> str | None:
+    if not count:
+        return None
+    entries = "1 entry" if count == 1 else f"{count} entries"
+    return f"{entries} of the database cannot be read. Everything else is as it was."
 
 
 def _files(database: Path) -> tuple[Path, ...]:

@@ -5,10 +5,15 @@ A change and the version that goes with it are one transaction: after a kill bot
 
 import json
 import sqlite3
+from collections.abc import Callable
 from dataclasses import astuple, dataclass
+from typing import Any
 
 from app.common.json import Json
 from app.store.database import Database
+from app.store.tables.contents import APPROVAL_RECORD
+from app.store.tables.shapes import COUNT, MOMENT, WHOLE, Maybe, Shape, Stored, text
+from app.store.tables.table import Selection, Table, TableKind, View
 from app.undo.history import Action, Author, History, LogEntry
 from core.errors import InputError
 
@@ -20,7 +25,16 @@ MOST_SAVED = 10
 
 _MISSING = "Documents are missing in the history of “{}”."
 
-_VERSION_COLUMNS = "number, made, kind, name, by, position, motion, document"
+_VERSION: dict[str, Shape] = {
+    "number": COUNT,
+    "made": MOMENT,
+    "kind": text,
+    "name": text,
+    "by": text,
+    "position": COUNT,
+    "motion": text,
+    "document": text,
+}
 
 
 @dataclass(frozen=True)
@@ -59,6 +73,66 @@ class VersionRow:
     document: str
 
 
+@dataclass(frozen=True)
+class OpenGaitRow:
+    """The table's row of an edited gait."""
+
+    gait: str
+    revision: int
+    last: int
+    done: str
+    undone: str
+    notice: str | None
+    approval: str | None
+    revoked: str | None
+
+
+@dataclass(frozen=True)
+class ApprovalRow:
+    """An entry of the record of approvals."""
+
+    number: int
+    content: Json
+
+
+def _entry(**columns: Any) -> tuple[int, LogEntry]:
+    author = Author(columns["page"], columns["name"])
+    return columns["position"], LogEntry(columns["label"], columns["document"], author, columns["edit"])
+
+
+OPEN_GAITS = TableKind(
+    "open_gait",
+    "editing state of the gait",
+    ("gait",),
+    {
+        "gait": text,
+        "revision": COUNT,
+        "last": COUNT,
+        "done": text,
+        "undone": text,
+        "notice": Maybe(text),
+        "approval": Maybe(text),
+        "revoked": Maybe(text),
+    },
+    OpenGaitRow,
+)
+HISTORY = TableKind(
+    "history",
+    "step in the history",
+    ("gait", "position"),
+    {"position": COUNT, "label": text, "document": text, "page": text, "name": text, "edit": text},
+    _entry,
+)
+VERSIONS = TableKind("version", "version", ("gait", "number"), _VERSION, VersionRow)
+APPROVALS = TableKind(
+    "approval",
+    "record of approval",
+    ("gait", "number"),
+    {"number": WHOLE, "content": Stored(APPROVAL_RECORD)},
+    ApprovalRow,
+)
+
+
 class EditHistoryStore:
     """The tables `open_gait`, `history`, `version`, `approval`; a gait is the last entry of its history.
 
@@ -68,6 +142,8 @@ class EditHistoryStore:
 
     def __init__(self, database: Database) -> None:
         self._database = database
+        self._open_gaits, self._history = Table(database, OPEN_GAITS), Table(database, HISTORY)
+        self._versions, self._approvals = Table(database, VERSIONS), Table(database, APPROVALS)
 
     def editing(self, gait: str) -> EditHistoryRow | None:
         """A gait's editing state, or None where it was never edited.
@@ -75,37 +151,33 @@ class EditHistoryStore:
         Raises:
             InputError: what is kept of it contradicts itself.
         """
-        rows = self._database.rows(
-            "SELECT revision, last, done, undone, notice, approval, revoked FROM open_gait WHERE gait=?", gait
-        )
-        if not rows:
+        row = self._open_gaits.first("WHERE gait=?", gait)
+        if row is None:
             return None
-        revision, last, done, undone, notice, approval, revoked = rows[0]
         entries = self.entries(gait)
-        history = History(entries, last, _actions(done, gait), _actions(undone, gait))
+        history = History(entries, row.last, _actions(row.done, gait), _actions(row.undone, gait))
         edits = [action.position for action in (*history.done, *history.undone)]
-        if not {last, *edits, *(position - 1 for position in edits)} <= entries.keys():
+        if not {row.last, *edits, *(position - 1 for position in edits)} <= entries.keys():
             raise InputError(_MISSING.format(gait), gait)
-        return EditHistoryRow(revision, history, notice, approval, revoked)
+        return EditHistoryRow(row.revision, history, row.notice, row.approval, row.revoked)
 
     def entries(self, gait: str) -> dict[int, LogEntry]:
-        """Every document of a gait's history, by position."""
-        rows = self._database.rows(
-            "SELECT position, label, document, page, name, edit FROM history WHERE gait=?", gait
-        )
-        return {
-            at: LogEntry(label, text, Author(page, name), edit) for at, label, text, page, name, edit in rows
-        }
+        """Every document of a gait's history that can be read, by position."""
+        return dict(self._history.select("WHERE gait=?", gait).rows)
 
     def revision(self, gait: str) -> int:
-        """Revision of a gait's present document; 0 where it was never edited."""
-        rows = self._database.rows("SELECT revision FROM open_gait WHERE gait=?", gait)
-        return rows[0][0] if rows else 0
+        """Revision of a gait's present document; 0 where it was never edited, or that cannot be read."""
+        rows = self._open_gaits.select("WHERE gait=?", gait).rows
+        return rows[0].revision if rows else 0
+
+    def is_edited(self, gait: str) -> bool:
+        """Whether there is an editing state of a gait, readable or not."""
+        return bool(self._database.rows("SELECT 1 FROM open_gait WHERE gait=?", gait))
 
     def ids(self) -> frozenset[str]:
         """Every gait of which anything is kept."""
         rows = self._database.rows("SELECT gait FROM open_gait UNION SELECT gait FROM version")
-        return frozenset(row[0] for row in rows)
+        return frozenset(gait for (gait,) in rows if isinstance(gait, str))
 
     def present_document(self, gait: str) -> str | None:
         """A gait's present document as JSON text, or None where it was never edited.
@@ -113,28 +185,22 @@ class EditHistoryStore:
         Raises:
             InputError: what is kept of it contradicts itself.
         """
-        rows = self._database.rows(
-            "SELECT h.document, o.done, o.undone FROM open_gait o "
-            "LEFT JOIN history h ON h.gait = o.gait AND h.position = o.last WHERE o.gait=?",
-            gait,
-        )
-        if not rows:
+        row = self._open_gaits.first("WHERE gait=?", gait)
+        if row is None:
             return None
-        document, *stacks = rows[0]
-        for actions in stacks:
+        for actions in (row.done, row.undone):
             _actions(actions, gait)
-        if document is None:
+        entry = self._history.first("WHERE gait=? AND position=?", gait, row.last)
+        if entry is None:
             raise InputError(_MISSING.format(gait), gait)
-        return str(document)
+        return entry[1].document
 
     def last_saved(self, gait: str) -> list[tuple[float, str]]:
         """The last documents that were saved, the newest first: when, s since the epoch, and JSON text."""
-        rows = self._database.rows(
-            "SELECT made, document FROM version WHERE gait=? AND kind='saved' ORDER BY number DESC LIMIT ?",
-            gait,
-            MOST_SAVED,
+        selection = self._versions.select(
+            "WHERE gait=? AND kind='saved' ORDER BY number DESC LIMIT ?", gait, MOST_SAVED
         )
-        return [(made, document) for made, document in rows]
+        return [(version.made, version.document) for version in selection.rows]
 
     def put(
         self,
@@ -194,33 +260,36 @@ class EditHistoryStore:
             )
             return changed.rowcount > 0
 
-    def approvals(self, gait: str) -> list[tuple[int, Json]]:
-        """The record of a gait's approvals with their numbers, the newest first."""
-        rows = self._database.rows(
-            "SELECT number, content FROM approval WHERE gait=? ORDER BY number DESC", gait
-        )
-        return [(number, json.loads(content)) for number, content in rows]
+    def approvals(self, gait: str, view: Callable[[ApprovalRow], View]) -> Selection[View]:
+        """The record of a gait's approvals, the newest first.
 
-    def versions(self, gait: str) -> tuple[VersionRow, ...]:
+        Args:
+            gait: its id.
+            view: makes of each what is wanted.
+        """
+        return self._approvals.viewed(view, "WHERE gait=? ORDER BY number DESC", gait)
+
+    def versions(self, gait: str) -> Selection[VersionRow]:
         """A gait's versions, the newest first."""
-        rows = self._database.rows(
-            f"SELECT {_VERSION_COLUMNS} FROM version WHERE gait=? ORDER BY number DESC", gait
-        )
-        return tuple(VersionRow(*row) for row in rows)
+        return self._versions.select("WHERE gait=? ORDER BY number DESC", gait)
 
     def version(self, gait: str, number: int) -> VersionRow | None:
-        """One version, or None where there is none of that number."""
-        rows = self._database.rows(
-            f"SELECT {_VERSION_COLUMNS} FROM version WHERE gait=? AND number=?", gait, number
-        )
-        return VersionRow(*rows[0]) if rows else None
+        """One version, or None where there is none of that number.
+
+        Raises:
+            DamagedRowError: it cannot be read.
+        """
+        return self._versions.first("WHERE gait=? AND number=?", gait, number)
 
     def newest_version(self, gait: str) -> VersionRow | None:
-        """The version that was made last."""
-        rows = self._database.rows(
-            f"SELECT {_VERSION_COLUMNS} FROM version WHERE gait=? ORDER BY number DESC LIMIT 1", gait
-        )
-        return VersionRow(*rows[0]) if rows else None
+        """The version that was made last; None where there is none, or it cannot be read."""
+        rows = self._versions.select("WHERE gait=? ORDER BY number DESC LIMIT 1", gait).rows
+        return rows[0] if rows else None
+
+    def newest_number(self, gait: str) -> int:
+        """Number of the version that was made last, readable or not; 0 where there is none."""
+        query = "SELECT MAX(number) FROM version WHERE gait=? AND typeof(number)='integer'"
+        return int(self._database.rows(query, gait)[0][0] or 0)
 
     def add_version(self, gait: str, version: VersionRow) -> None:
         """Stores a version."""
@@ -245,7 +314,7 @@ def _actions(text: str, gait: str) -> tuple[Action, ...]:
 
 def _insert_version(connection: sqlite3.Connection, gait: str, version: VersionRow) -> None:
     connection.execute(
-        f"INSERT INTO version(gait, {_VERSION_COLUMNS}) VALUES(?,?,?,?,?,?,?,?,?)",
+        f"INSERT INTO version(gait, {', '.join(_VERSION)}) VALUES(?,?,?,?,?,?,?,?,?)",
         (
             gait,
             version.number,

@@ -103,7 +103,7 @@ class RunService:
         return {
             **{key: content[key] for key in keys},
             "started": _iso(content["started"]),
-            "ended": None if content["ended"] is None else _iso(content["ended"]),
+            "ended": None if content.get("ended") is None else _iso(content["ended"]),
             "seconds": content.get("seconds"),
             "reached": content.get("reached"),
             "count": content.get("count"),

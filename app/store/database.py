@@ -56,6 +56,7 @@ class Database:
         self.damage: str | None = None
         self.row_damages: dict[tuple[str, int], RowDamage] = {}
         self.damaged: Callable[[], None] = lambda: None
+        self._looked_at: set[str] = set()
         self._lock = threading.Lock()
         with ExitStack() as opened:
             opened.callback(DatabaseUse(path.parent).close)
@@ -109,7 +110,7 @@ class Database:
 
         Args:
             damage: what is wrong.
-            columns: the row's; where one is no text any more, the file itself is looked at.
+            columns: the row's; the first time in a table that one is no text any more, the file is looked at.
 
         Raises:
             StorageDamagedError: the file is damaged.
@@ -119,7 +120,9 @@ class Database:
             return
         self.row_damages[place] = damage
         logger.warning("%s", damage.sentence)
-        if any(isinstance(column, DamagedText) for column in columns):
+        is_text_lost = any(isinstance(column, DamagedText) for column in columns)
+        if is_text_lost and damage.table not in self._looked_at:
+            self._looked_at.add(damage.table)
             with self._sentences():
                 found = damage_of(self.path, is_open=True)
                 if found is not None:

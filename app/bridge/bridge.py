@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 from functools import partial
 
-from app.bridge.inbox import Bytes, HungUp, Inbox
+from app.bridge.inbox import MOST_BYTES, Bytes, HungUp, Inbox, Item, LeftOut
 from app.bridge.jog import JogPlan
 from app.bridge.state_machine import RobotStateMachine
 from app.bridge.states import IN_RUN, Direction, LinkState, RobotSnapshot, RunPlan, Transition
@@ -354,21 +354,23 @@ class RobotBridge:
             if was_away and transport is not None:
                 # What waited while the program did not run is read before anything is judged.
                 transport.wait_read()
-                items += self._inbox.take()
+                items += self._inbox.take(0.0, MOST_BYTES)
             with self._lock:
                 self._now()
                 for item in items:
                     self._feed(item)
                 if was_away:
                     self._machine.listen_anew(self._running())
-                self._machine.tick(self._running())
+                self._machine.tick(self._inbox.judged_until(self._running()))
             self._tell()
 
-    def _feed(self, item: Bytes | HungUp) -> None:
+    def _feed(self, item: Item) -> None:
         if self._machine.link is LinkState.DISCONNECTED:
             return
         if isinstance(item, Bytes):
             self._machine.received(item.data, item.time)
+        elif isinstance(item, LeftOut):
+            self._machine.flooded(self._running())
         elif item.line == self._lines_opened:
             self._machine.hung_up(item.reason, self._running())
 

@@ -2,7 +2,8 @@
 
 from enum import Enum, auto
 
-from app.bridge.messages import misread_sentence
+from app.bridge.messages import cited, misread_sentence
+from app.bridge.pass_check import PassCheck
 from app.bridge.stop_confirmation import STOP_PAYLOAD
 from core.wire.lines import (
     CurrentPoint,
@@ -82,6 +83,7 @@ class Delivery:
     Args:
         message: what was sent.
         target_mm: strokes that it leads to.
+        measured_mm: strokes in the robot's last telemetry line.
         stages: what must be seen, in order.
         sent_at: time of sending, s.
         deadline: time within which everything must have been seen, s (see `arrival_deadline`).
@@ -95,6 +97,7 @@ class Delivery:
         self,
         message: bytes,
         target_mm: tuple[float, ...],
+        measured_mm: tuple[float, ...],
         stages: tuple[Stage, ...],
         sent_at: float,
         deadline: float,
@@ -111,6 +114,8 @@ class Delivery:
         self._executing = False
         self._idle = 0
         self._misses_lines = False
+        self._pass_check = PassCheck(target_mm, measured_mm)
+        self._point_read = False
 
     @property
     def arrived(self) -> bool:
@@ -126,6 +131,13 @@ class Delivery:
         if not self._left or self.failure is not None:
             return
         self._follow(line)
+        if not self._misses_lines:
+            is_taken = self._left[0] is not Stage.ECHO
+            self.failure = self._pass_check.see(line, is_taken=is_taken)
+            if self.failure is None and is_taken and isinstance(line, Echo):
+                self.failure = f"The robot took {cited(line.payload)}, which was not sent."
+            if self.failure is not None:
+                return
         if self._misses_lines and self._idle >= REST_PASSES:
             self._judge_at_rest(line)
             return
@@ -181,13 +193,18 @@ class Delivery:
             self.failure = misread_sentence(self.payload, line.payload)
 
     def _await_point(self, line: Line) -> None:
-        if isinstance(line, TrajectoryPoint):
-            if line.index == 0 and numbers_equal(self.target_mm, line.strokes_mm):
+        match line:
+            case TrajectoryPoint():
+                self._point_read = line.index == 0 and numbers_equal(self.target_mm, line.strokes_mm)
+                if not self._point_read:
+                    self.failure = "The robot read other strokes than were sent."
+            case PointCount() if line.count != 1:
+                self.failure = f"The robot read {line.count} waypoints, but one was sent."
+            case PointCount() if self._point_read:
                 self._left.pop(0)
-            else:
-                self.failure = "The robot read other strokes than were sent."
-        elif isinstance(line, NewData | PointCount | EndOfTrajectories) and not self._misses_lines:
-            self.failure = "The robot did not confirm the strokes that it was sent."
+            case NewData() | PointCount() | EndOfTrajectories() | Execute() if not self._misses_lines:
+                missing = "how many waypoints it read" if self._point_read else "the strokes that it was sent"
+                self.failure = f"The robot did not confirm {missing}."
 
     def _await_end(self, line: Line) -> None:
         if isinstance(line, EndOfTrajectories):

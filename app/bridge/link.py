@@ -5,15 +5,19 @@ It knows no runs; `RobotStateMachine` does, and says through the two methods at 
 
 from abc import ABC, abstractmethod
 
+from app.bridge.delivery import Delivery
 from app.bridge.handshake import START_LIMIT, Handshake
 from app.bridge.messages import (
     CONNECTING,
+    FLOODED,
     NOT_CONNECTED,
     NOT_SENT,
+    OVERLONG,
     RESTARTED,
     restless_sentence,
     silent_sentence,
     stranger_sentence,
+    unread_sentence,
     without_remedy,
 )
 from app.bridge.state_log import StateLog
@@ -21,8 +25,8 @@ from app.bridge.states import IN_RUN, LinkState, RobotState
 from app.bridge.stop_procedure import StopProcedure
 from app.bridge.telemetry import STALE_TIME, TelemetryMonitor
 from app.bridge.write_gate import Clock, WriteGate
-from core.errors import RobotError
-from core.wire.lines import Line, LineReader, SetupFinished, SetupMoving
+from core.errors import RobotError, StateError
+from core.wire.lines import Line, LineReader, OverlongLine, SetupFinished, SetupMoving
 
 
 class RobotLink(StateLog, ABC):
@@ -46,8 +50,10 @@ class RobotLink(StateLog, ABC):
         self._stop = StopProcedure(self, gate)
         self._handshake = Handshake(0.0)
         self._reader = LineReader()
+        self._delivery: Delivery | None = None
         self._hung_up = False
         self._clearing = False
+        self._noted: set[str] = set()
         self._was_away = False
         self._away_cause = ""
 
@@ -67,6 +73,7 @@ class RobotLink(StateLog, ABC):
         self._handshake = Handshake(now)
         self._stop.restart(now)
         self._hung_up = False
+        self._noted.clear()
         self._reader = LineReader()
         self.monitor = TelemetryMonitor(now)
         self.become(f"{device} was opened.", CONNECTING, link=LinkState.CONNECTING)
@@ -99,6 +106,11 @@ class RobotLink(StateLog, ABC):
             self.monitor.see(line, now)
             self._see(line, now)
 
+    def flooded(self, now: float) -> None:
+        """Bytes of the robot were left out, for more came than can be read."""
+        self._reader.cut()
+        self._see_garbage(FLOODED, now)
+
     @property
     def was_away(self) -> bool:
         """Whether the bytes that came while the program did not run are still to be taken."""
@@ -127,24 +139,38 @@ class RobotLink(StateLog, ABC):
         if self.link is not LinkState.DISCONNECTED and not self._clearing:
             self._check_stop(now)
 
-    def _note_away(self, seconds: float) -> None:
+    def _note_away(self, seconds: float, now: float) -> None:
         """Called when the program did not run for `seconds`: a line keeps no more than `STALE_TIME` holds."""
         if seconds > STALE_TIME:
             self._was_away = True
-            self.monitor.forget_age()
+            self.monitor.forget_age(now)
 
-    def _begin_anew(self) -> None:
+    def _begin_anew(self, now: float) -> None:
         """Called when the bytes that waited are taken: some may be missing, what comes is of the present."""
         self._was_away = False
         self._reader.cut()
-        self.monitor.forget_age()
+        self.monitor.forget_age(now)
 
     def _see(self, line: Line, now: float) -> None:
         if isinstance(line, SetupMoving | SetupFinished):
             self._see_restart(now)
+        elif isinstance(line, OverlongLine):
+            self._see_garbage(OVERLONG, now)
         self._stop.see(line, now)
         if self.link is not LinkState.READY and not self._hung_up:
             self._open_up(line, now)
+
+    def _see_garbage(self, sentence: str, now: float) -> None:
+        """Ends what is under way; otherwise it is noted once in a connection."""
+        if self._is_busy:
+            self._fault(sentence, now)
+        elif sentence not in self._noted:
+            self._noted.add(sentence)
+            self.become(sentence, self.sentence)
+
+    @property
+    def _is_busy(self) -> bool:
+        return self.in_run or self._clearing
 
     def _see_restart(self, now: float) -> None:
         if self.link is LinkState.CONNECTING or self._hung_up:
@@ -178,12 +204,20 @@ class RobotLink(StateLog, ABC):
         limit = self.monitor.longest_silence
         if self.link is LinkState.READY and silence > limit:
             self._lose(silent_sentence(silence, limit, self._place), now)
+        elif self.link is LinkState.READY and self._is_busy:
+            self._check_strokes(now)
         elif self.link is LinkState.CONNECTING and self._handshake.overdue(now):
             if self._handshake.flushed_at is None:
                 sentence = stranger_sentence(self.device, START_LIMIT, talks=self.monitor.talks)
             else:
                 sentence = restless_sentence(self.device, START_LIMIT)
             self._lose(sentence, now)
+
+    def _check_strokes(self, now: float) -> None:
+        """Ends what is under way with a robot that talks but does not say where it stands."""
+        unread, limit = self.monitor.unread_time(now), self.monitor.longest_unread
+        if unread > limit and self.robot is not RobotState.PAUSED:
+            self._fault(unread_sentence(unread, limit, self.monitor.unread_strokes, self._place), now)
 
     def _check_stop(self, now: float) -> None:
         try:
@@ -218,7 +252,7 @@ class RobotLink(StateLog, ABC):
     def _lose(self, sentence: str, now: float) -> None:
         if self.link is LinkState.LOST:
             return
-        robot = RobotState.FAULT if self.in_run or self._clearing else self.robot
+        robot = RobotState.FAULT if self._is_busy else self.robot
         if robot in (RobotState.ARMED, RobotState.DISARMED, RobotState.DONE):
             robot = RobotState.UNKNOWN
         begun = robot is RobotState.FAULT is not self.robot
@@ -230,6 +264,28 @@ class RobotLink(StateLog, ABC):
         self.become(sentence, sentence, link=LinkState.LOST, robot=robot)
         if begun and not self._hung_up:
             self._send_stop(now)
+
+    def _require(self, what: str, *states: RobotState, remedy: str) -> None:
+        """Refuses what needs a message of its own, unless link, robot and wire are ready for it.
+
+        Raises:
+            StateError: with what is in its way, and the remedy.
+        """
+        self.require_link(what)
+        self.require_robot(*states, remedy=remedy)
+        self._require_free()
+
+    def _require_free(self) -> None:
+        """Refuses a second message while one is in flight; only a stop may overtake it.
+
+        Raises:
+            StateError: the robot has not done with the message that was sent last.
+        """
+        if self._delivery is not None:
+            raise StateError(
+                "The robot is still busy with the message that was sent last. Wait until it is done, or stop "
+                "the robot."
+            )
 
     # What the robot is busy with
 

@@ -4,7 +4,7 @@ import re
 from itertools import zip_longest
 
 from app.bridge.states import RobotState
-from core.wire.lines import Line
+from core.wire.lines import LONGEST_LINE, Line
 from core.wire.messages import THRESHOLD_MM, name_motor
 
 NOTICED_MM = 0.9 * THRESHOLD_MM
@@ -26,6 +26,9 @@ SENTENCES: dict[RobotState, str] = {
 SHOWN_AROUND = 12
 """Characters that are shown on each side of a difference."""
 
+CITED = 40
+"""Characters of a line that are shown."""
+
 NOT_CONNECTED = "No robot is connected."
 CONNECTING = (
     "Waiting for the robot. Its board may restart when it is connected, or carry out a message that was cut "
@@ -34,6 +37,16 @@ CONNECTING = (
 RESTARTED = "The robot restarted by itself and moves its motors to 0.5 mm."
 NOT_STOPPED = "NOT STOPPED: the robot has not confirmed the stop. Use the power switch."
 NOT_SENT = "NOT STOPPED: the line did not take the stop. Use the power switch."
+
+
+OVERLONG = (
+    f"The robot sent a line of more than {LONGEST_LINE} bytes. It was cut there, and its rest is left out. "
+    "Look at the robot's cable and at the program on its board."
+)
+FLOODED = (
+    "The robot sends faster than the program can read: what found no room was left out. Look at the robot's "
+    "cable and at the program on its board."
+)
 
 
 def clearing_sentence(
@@ -65,9 +78,14 @@ def misread_sentence(sent: str, read: str) -> str:
     )
 
 
-def _around(text: str, place: int) -> str:
+def cited(text: str) -> str:
+    """The beginning of what the robot said, in quotes."""
+    return _around(text, 0, CITED)
+
+
+def _around(text: str, place: int, around: int = SHOWN_AROUND) -> str:
     """A text near a place, in quotes; what cannot be printed stands as its code."""
-    begin, end = max(place - SHOWN_AROUND, 0), place + SHOWN_AROUND + 1
+    begin, end = max(place - around, 0), place + around + 1
     shown = "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in text[begin:end])
     quoted = f"“{'…' if begin else ''}{shown}{'…' if end < len(text) else ''}”"
     return quoted if place < len(text) else f"nothing more after {quoted}"
@@ -90,6 +108,15 @@ def silent_sentence(silence: float, limit: float, place: str) -> str:
     return (
         f"The robot has been silent for {silence:.1f} s {place} (limit {limit:.1f} s): its board restarted "
         "or hangs, or power or cable failed. If it moves, use its power switch; then connect again."
+    ).replace("  ", " ")
+
+
+def unread_sentence(unread: float, limit: float, said: str, place: str) -> str:
+    """Says that a robot talks but gives no strokes that can be read."""
+    last = f"its telemetry was {cited(said)}" if said else "no telemetry came"
+    return (
+        f"The robot talks, but for {unread:.1f} s {place} it gave no strokes that can be read "
+        f"(limit {limit:.1f} s): {last}. Look at its cable and at the program on its board before you clear."
     ).replace("  ", " ")
 
 

@@ -56,7 +56,6 @@ class RobotStateMachine(RobotLink):
         self._jog: Jog | None = None
         self._test: MotorTest | None = None
         self._last_test: MotorTest | None = None
-        self._delivery: Delivery | None = None
         self._permit = -1
         self._away_until = 0.0
         self._numbers = itertools.count(1)
@@ -89,7 +88,7 @@ class RobotStateMachine(RobotLink):
 
     def away(self, seconds: float, now: float) -> None:
         """The program did not run for so long, s: a run goes on by itself after a short time only."""
-        self._note_away(seconds)
+        self._note_away(seconds, now)
         if self.was_away:
             if self._delivery is not None:
                 self._delivery.miss_lines()
@@ -124,7 +123,7 @@ class RobotStateMachine(RobotLink):
 
     def listen_anew(self, now: float) -> None:
         """The bytes that waited are taken, and what they decided is done."""
-        self._begin_anew()
+        self._begin_anew(now)
         self._finish_delivery(now)
         if self._delivery is not None:
             self._delivery.miss_lines()
@@ -133,8 +132,9 @@ class RobotStateMachine(RobotLink):
 
     def arm(self, by: str) -> None:
         """Lets the robot be moved."""
-        self.require_link("armed")
-        self.require_robot(RobotState.DISARMED, RobotState.DONE, remedy="Only a disarmed robot can be armed.")
+        self._require(
+            "armed", RobotState.DISARMED, RobotState.DONE, remedy="Only a disarmed robot can be armed."
+        )
         self._permit = self._gate.permit()
         self.become(f"Armed by {by}.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
 
@@ -152,8 +152,7 @@ class RobotStateMachine(RobotLink):
 
     def send(self, plan: RunPlan, by: str, now: float, run_id: str | None = None) -> str:
         """Begins a run and returns its name, which is made up unless given."""
-        self.require_link("sent a plan")
-        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then send the plan.")
+        self._require("sent a plan", RobotState.ARMED, remedy="Arm the robot, then send the plan.")
         run = Run(plan, self._measured_now(now), run_id or uuid.uuid4().hex[:12], by, self._clock)
         self._run = run
         self._away_cause = ""
@@ -164,8 +163,7 @@ class RobotStateMachine(RobotLink):
 
     def reset(self, by: str, now: float) -> None:
         """Sends every motor to 0.5 mm."""
-        self.require_link("reset")
-        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then reset it.")
+        self._require("reset", RobotState.ARMED, remedy="Arm the robot, then reset it.")
         self._measured_now(now)
         self._run = None
         sentence = f"Every motor goes to {RESET_MM} mm."
@@ -174,8 +172,7 @@ class RobotStateMachine(RobotLink):
 
     def jog(self, plan: JogPlan, by: str, now: float) -> None:
         """Moves motors by steps that a person chose, from where an armed robot stands still."""
-        self.require_link("jogged")
-        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then jog it.")
+        self._require("jogged", RobotState.ARMED, remedy="Arm the robot, then jog it.")
         if not self.monitor.stands_still(now):
             raise StateError("The robot does not stand still yet. Wait until it does, then jog it.")
         self._jog = Jog(plan, self._measured(), by)
@@ -185,8 +182,7 @@ class RobotStateMachine(RobotLink):
 
     def test_motors(self, model: RobotModel, by: str, now: float) -> None:
         """Moves one motor after the other out and back, and tells what is wrong with each."""
-        self.require_link("tested")
-        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then test its motors.")
+        self._require("tested", RobotState.ARMED, remedy="Arm the robot, then test its motors.")
         self._measured_now(now)
         self._test = self._last_test = MotorTest(model, by)
         self._run = None
@@ -216,7 +212,7 @@ class RobotStateMachine(RobotLink):
         self.require_robot(*states, remedy="Only a paused run can be resumed.")
         waiting = self.robot is RobotState.PAUSED
         if waiting and self._run is not None:
-            self.require_link("resumed")
+            self._require("resumed", *states, remedy="")
             if now < self._away_until:
                 raise StateError("The program has just come back. Look at the robot, then resume once more.")
             self._run.require_in_place(self._measured_now(now))
@@ -227,9 +223,8 @@ class RobotStateMachine(RobotLink):
 
     def clear(self, by: str, now: float) -> None:
         """Replaces what the stopped robot would go on with by where it stands, then lets it go."""
-        self.require_link("cleared")
         states = (RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING)
-        self.require_robot(*states, remedy="There is nothing to clear.")
+        self._require("cleared", *states, remedy="There is nothing to clear.")
         self._stop.require_confirmed(now)
         if not self.monitor.stands_still(now):
             raise StateError("The robot does not stand still yet. Wait until it does, then clear.")
@@ -283,10 +278,12 @@ class RobotStateMachine(RobotLink):
         early_end: bool = False,
         kind: MessageKind = MessageKind.WAYPOINT,
     ) -> None:
-        distance = max(abs(t - m) for t, m in zip(target_mm, self._measured(), strict=True))
+        self._require_free()
+        measured = self._measured()
+        distance = max(abs(t - m) for t, m in zip(target_mm, measured, strict=True))
         self.monitor.expect(distance)
         deadline = arrival_deadline(distance, patience)
-        self._delivery = Delivery(message, target_mm, stages, now, deadline, early_end=early_end)
+        self._delivery = Delivery(message, target_mm, measured, stages, now, deadline, early_end=early_end)
         self.revision += 1
         try:
             self._gate.write(message, self._permit, kind)

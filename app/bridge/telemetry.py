@@ -11,6 +11,8 @@ from core.wire.lines import (
     Execute,
     Line,
     NewData,
+    OutOfTravel,
+    OverlongLine,
     SetupMoving,
     Telemetry,
     UnknownLine,
@@ -39,6 +41,10 @@ named within 2 s, s."""
 LATE_BYTES = 0.4
 """How late bytes may be after a ramp, s."""
 
+UNREAD_TIME = 1.0
+"""The strokes may come later by this than the first word after a silence: a scan of the errors and what is
+late, s."""
+
 SILENCE_LIMIT = 4.0
 """No robot is waited for longer than this, whatever it was told, s."""
 
@@ -54,6 +60,7 @@ class TelemetryMonitor:
         last_byte: time of the last byte, s.
         idle_lines: telemetry lines since the robot last worked at a move.
         unknown_lines: lines of no known kind.
+        unread_strokes: last line that begins like telemetry and is none, or empty.
         longest_scan: longest error scan, s, or None.
         last_line: last line that tells more than that the robot is alive.
         last_reading: time of the last telemetry line, s.
@@ -66,6 +73,7 @@ class TelemetryMonitor:
         self.last_byte = now
         self.idle_lines = 0
         self.unknown_lines = 0
+        self.unread_strokes = ""
         self.longest_scan: float | None = None
         self.last_line: Line | None = None
         self.readings = 0
@@ -73,6 +81,7 @@ class TelemetryMonitor:
         self._still_from: tuple[float, ...] | None = None
         self._still_since = now
         self.last_reading = now
+        self._strokes_awaited = now
         self._scan_began: float | None = None
         self._farthest_mm = HIGHEST_MM - LOWEST_MM
 
@@ -94,8 +103,18 @@ class TelemetryMonitor:
         ramp = ramp_time(self._farthest_mm / 1000.0) + OVERRUN + LATE_BYTES
         return min(max(IDLE_SILENCE, ramp), SILENCE_LIMIT)
 
-    def forget_age(self) -> None:
+    @property
+    def longest_unread(self) -> float:
+        """How long the robot may give no strokes that can be read, s."""
+        return self.longest_silence + UNREAD_TIME
+
+    def unread_time(self, now: float) -> float:
+        """Time since the last strokes that could be read, s."""
+        return now - self._strokes_awaited
+
+    def forget_age(self, now: float) -> None:
         """The readings so far are of a time that nobody can tell; only the next one shows where it stands."""
+        self._strokes_awaited = now
         self.last_reading = -math.inf
         self._still_from = None
 
@@ -119,8 +138,12 @@ class TelemetryMonitor:
                 self._farthest_mm = max(self._farthest_mm, _largest(line.errors_mm))
             case ErrorsChecked() if self._scan_began is not None:
                 self.longest_scan = max(self.longest_scan or 0.0, now - self._scan_began)
-            case UnknownLine():
+            case OutOfTravel():
                 self.unknown_lines += 1
+            case UnknownLine() | OverlongLine():
+                self.unknown_lines += 1
+                if line.text.startswith("j,"):
+                    self.unread_strokes = line.text
             case _:
                 pass
         if not isinstance(line, Blank | NewData):
@@ -130,7 +153,7 @@ class TelemetryMonitor:
         self.strokes_mm = strokes_mm
         self.readings += 1
         self.idle_lines += 1
-        self.last_reading = now
+        self.last_reading = self._strokes_awaited = now
         still = self._still_from is not None and all(
             abs(a - b) <= STILL_MM for a, b in zip(self._still_from, strokes_mm, strict=True)
         )

@@ -10,11 +10,12 @@ from typing import Any
 from app.documents.stored_gait import StoredGait, stored_gait
 from app.gaits.open_gait import OpenGait, fresh_gait, stored_entry
 from app.gaits.saved_file import WAYS_OUT, SavedFiles
-from app.gaits.trash import ROUTE, DeletedGait, deleted_gaits
+from app.gaits.trash import IN_TRASH, ROUTE, DeletedGait, deleted_gaits, put_away, trash_key
 from app.store.gait_files import GaitFiles, free_id
+from app.store.storage_errors import left_undone
 from app.store.tables.edit_history_store import EditHistoryRow, EditHistoryStore, VersionRow
 from app.undo.history import History
-from core.errors import InputError, NotFoundError, StateError
+from core.errors import InputError, NotFoundError, StateError, StorageError
 from core.gait.gait import Gait
 from core.library.library import library
 
@@ -32,6 +33,8 @@ class GaitRepository:
         self._edits = edits
         self._saved_files = SavedFiles(files, edits)
         self._stored: dict[str, History] = {}
+        with left_undone("What is kept of deleted gaits is not put away"):
+            put_away(files, edits)
 
     def stamps(self) -> dict[str, tuple[int, int] | None]:
         """Built-in gaits first, then saved ones; each with what changes when its file does."""
@@ -188,12 +191,33 @@ class GaitRepository:
             taken: ids that it must not get, besides those of the repository.
             before: as for `write`.
         """
-        used = {ROUTE, *taken, *self.stamps(), *self._files.deleted_ids(), *self._edits.ids()}
-        return self.write(fresh_gait(free_id(gait.name, used), gait, False, None), before)
+        return self.write(fresh_gait(self._free_id(gait.name, taken), gait, False, None), before)
+
+    def _free_id(self, name: str, taken: frozenset[str] = frozenset()) -> str:
+        kept = (key.removeprefix(IN_TRASH) for key in self._edits.ids())
+        used = {ROUTE, *taken, *self.stamps(), *self._files.deleted_ids(), *kept}
+        return free_id(name, used)
 
     def remove(self, gait_id: str) -> None:
-        """Takes a saved document away; `restore` brings it back."""
+        """Takes a gait away, with all that is kept of it; `restore` brings it back.
+
+        An older one of the same id stays in the trash, under another id.
+
+        Raises:
+            StorageError: the disk does not take it; the gait stays.
+        """
+        key = trash_key(gait_id)
+        spare = self._free_id(gait_id)
+        if gait_id in self._files.deleted_ids():
+            self._files.rename_deleted(gait_id, spare)
+        if key != gait_id:
+            self._edits.rename(key, trash_key(spare))
         self._files.remove(gait_id)
+        try:
+            self._edits.rename(gait_id, key)
+        except StorageError:
+            self._files.restore(gait_id, gait_id)
+            raise
         self._saved_files.forget(gait_id)
         self._stored.pop(gait_id, None)
 
@@ -201,15 +225,23 @@ class GaitRepository:
         """What `restore` can bring back, the last deleted first."""
         return deleted_gaits(self._files, self._edits)
 
-    def restore(self, gait_id: str) -> bool:
-        """Brings a document back that was taken away, without the approval that it had.
+    def restore(self, gait_id: str) -> tuple[str, bool]:
+        """Brings a gait back that was taken away, without the approval that it had.
 
         Returns:
-            Whether it had one.
+            Its id, which is another one where its own is in use by now, and whether it was approved.
+
+        Raises:
+            InputError: it is not in the trash.
         """
-        is_deleted = gait_id in self._files.deleted_ids() and self._files.saved_at(gait_id) is None
-        had_approval = is_deleted and self._edits.withdraw_approval(gait_id)
-        self._files.restore(gait_id)
-        self._saved_files.forget(gait_id)
-        self._stored.pop(gait_id, None)
-        return had_approval
+        self._files.require_deleted(gait_id)
+        key = trash_key(gait_id)
+        is_free = self._files.stamp(gait_id) is None and (key == gait_id or gait_id not in self._edits.ids())
+        to = gait_id if is_free else self._free_id(gait_id)
+        if key != gait_id:
+            self._edits.rename(key, to)
+        had_approval = self._edits.withdraw_approval(to)
+        self._files.restore(gait_id, to)
+        self._saved_files.forget(to)
+        self._stored.pop(to, None)
+        return to, had_approval

@@ -310,12 +310,13 @@ class GaitService:
     def restore(self, gait_id: str) -> OpenGait:
         """Brings a deleted gait back with its unsaved edits and its history; it needs a new approval.
 
-        One that cannot be shown comes back in the last state that can.
+        One that cannot be shown comes back in the last state that can. One whose id is in use by now comes
+        back under a free id.
 
         Raises:
-            InputError: it is back, and no state of it can be shown.
+            InputError: it is not in the trash; or it is back, and no state of it can be shown.
         """
-        had_approval = self._repository.restore(gait_id)
+        gait_id, had_approval = self._repository.restore(gait_id)
         self.open_gaits.close(gait_id)
         if self._is_recoverable(gait_id):
             self.recover(gait_id)

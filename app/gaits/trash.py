@@ -1,4 +1,8 @@
-"""The gaits that were deleted and can be brought back."""
+"""The gaits that were deleted and can be brought back.
+
+What the database keeps of a gait goes into the trash with its file, under a key of its own. A file that
+appears under the gait's name is therefore a new gait.
+"""
 
 from contextlib import suppress
 from dataclasses import dataclass
@@ -11,6 +15,27 @@ from core.library.library import library
 
 ROUTE = "deleted"
 """What the list is called among the addresses of gaits; no gait gets it as its id."""
+
+
+IN_TRASH = "trash/"
+"""Begins the key of what belongs to a gait in the trash; no gait's id has a slash."""
+
+
+def trash_key(gait_id: str) -> str:
+    """Key of what the database keeps of a gait in the trash. What comes with the program is never there."""
+    return gait_id if gait_id in library() else f"{IN_TRASH}{gait_id}"
+
+
+def put_away(files: GaitFiles, log: EditHistoryStore) -> None:
+    """Puts away what is kept of gaits in the trash, where a program ended before it did, or was older.
+
+    A gait whose id is in use stays as it is: nobody can tell what belongs to which.
+    """
+    kept = log.ids()
+    for gait_id in files.deleted_ids():
+        key = trash_key(gait_id)
+        if gait_id in kept and key not in kept and files.is_id(gait_id) and files.stamp(gait_id) is None:
+            log.rename(gait_id, key)
 
 
 @dataclass(frozen=True)
@@ -31,7 +56,7 @@ class DeletedGait:
 def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait, ...]:
     """What can be brought back, the last deleted first.
 
-    One whose id is in use again cannot. A damaged file goes by its own name.
+    A damaged file goes by its own name.
 
     Args:
         files: the saved gaits and the trash.
@@ -39,11 +64,11 @@ def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait,
     """
     found = []
     for gait_id in files.deleted_ids():
-        if not files.is_id(gait_id) or files.saved_at(gait_id) is not None:
+        if not files.is_id(gait_id):
             continue
         name = f"{gait_id}.json"
         with suppress(FootfallError):
-            text = None if gait_id in library() else log.present_document(gait_id)
+            text = None if gait_id in library() else log.present_document(trash_key(gait_id))
             name = files.deleted(gait_id).name if text is None else stored_gait(text).gait.name
         found.append(DeletedGait(gait_id, name, files.deleted_at(gait_id)))
     return tuple(found)

@@ -116,7 +116,7 @@ class RunService:
 
     def _errors(self, row: RunRow) -> Json | None:
         """Figures of a run; kept once it has ended. None where it was kept without its plan."""
-        run, is_on = row.content["id"], row.content["ended"] is None and row.content["state"] == "running"
+        run, is_on = row.content["id"], row.content.get("ended") is None and row.content["state"] == "running"
         kept = None if is_on else self._store.figures(run)
         if kept is not None and kept["version"] == FIGURES_VERSION:
             return kept

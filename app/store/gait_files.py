@@ -226,12 +226,19 @@ class GaitFiles:
         write_atomically(self._path(gait_id), text, before)
 
     def remove(self, gait_id: str) -> None:
-        """Moves a gait's file into the trash, from where it can be restored."""
+        """Moves a gait's file into the trash, from where it can be restored; see `rename_deleted`."""
         _move(self._path(gait_id), self._trash / f"{gait_id}.json")
-        kept = (one for one in self._deleted_order() if one != gait_id)
-        before = [one for one in kept if (self._trash / f"{one}.json").exists()]
+        self._write_order([*(one for one in self._deleted_order() if one != gait_id), gait_id])
+
+    def rename_deleted(self, gait_id: str, to: str) -> None:
+        """Gives a gait in the trash another id, so that one of its id may come there."""
+        _move(self._trash / self._path(gait_id).name, self._trash / self._path(to).name)
+        self._write_order([to if one == gait_id else one for one in self._deleted_order()])
+
+    def _write_order(self, ids: list[str]) -> None:
+        there = [one for one in ids if (self._trash / f"{one}.json").exists()]
         with left_undone("The order of the deleted gaits is not kept"):
-            write_atomically(self._trash / _ORDER, "\n".join([*before, gait_id]))
+            write_atomically(self._trash / _ORDER, "\n".join(there))
 
     def set_aside(self, gait_id: str, write: Callable[[], None]) -> Path:
         """Has another file take a gait's place; what was there is kept, whatever it is.
@@ -259,18 +266,23 @@ class GaitFiles:
             raise
         return kept
 
-    def restore(self, gait_id: str) -> None:
-        """Brings the last removed file of that id back.
+    def restore(self, gait_id: str, to: str) -> None:
+        """Brings a removed file back, under an id that has no file.
 
         Raises:
-            InputError: there is none, or the id is in use again.
+            InputError: it is not in the trash.
         """
-        source = self._trash / self._path(gait_id).name
-        if _stamp(source) is None:
+        self.require_deleted(gait_id)
+        _move(self._trash / self._path(gait_id).name, self._path(to))
+
+    def require_deleted(self, gait_id: str) -> None:
+        """Makes sure that a gait is in the trash.
+
+        Raises:
+            InputError: it is not.
+        """
+        if _stamp(self._trash / self._path(gait_id).name) is None:
             raise InputError(f"There is no deleted gait “{gait_id}” to restore.", gait_id)
-        if self.stamp(gait_id) is not None:
-            raise InputError(f"“{gait_id}” exists again; delete or rename it first.", gait_id)
-        _move(source, self._path(gait_id))
 
     @staticmethod
     def is_id(gait_id: str) -> bool:

@@ -14,12 +14,22 @@ READING_NOISE_MM = 1.0
 """A stroke outside 0 to 20.5 mm, give or take 1 mm, is no telemetry (docs/firmware.md)."""
 
 LONGEST_LINE = 32768
-"""Bytes after which a line without an end is given up as unknown; the echo has at most 20 000."""
+"""Bytes after which a line is cut and its rest left out; the echo has at most 20 000."""
+
+KEPT_OF_OVERLONG = 80
+"""Bytes that are kept of a line that was cut."""
 
 
 @dataclass(frozen=True)
 class Telemetry:
     """`j,…`: measured strokes of the 12 motors in mm."""
+
+    strokes_mm: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class OutOfTravel:
+    """`j,…` with a stroke in mm that no motor can have, so that it is no telemetry."""
 
     strokes_mm: tuple[float, ...]
 
@@ -124,10 +134,17 @@ class UnknownLine:
     text: str
 
 
+@dataclass(frozen=True)
+class OverlongLine:
+    """A line of more than `LONGEST_LINE` bytes: its beginning. The rest is left out."""
+
+    text: str
+
+
 Line = (
     Telemetry | NewData | Echo | Blank | PointDuration | TrajectoryPoint | PointCount | Execute
     | CurrentPoint | ErrorScan | ErrorsChecked | PointReached | EndOfTrajectories | SetupMoving
-    | SetupFinished | UnknownLine
+    | SetupFinished | OutOfTravel | UnknownLine | OverlongLine
 )  # fmt: skip
 
 _NUMBER = r"(?: *-?\d{1,20}\.\d+| *-?(?:nan|inf|ovf))"
@@ -176,35 +193,57 @@ class LineReader:
 
     def __init__(self, *, drop_first: bool = True) -> None:
         self._pending = bytearray()
-        self._drop_next = drop_first
+        self._length = 0
+        self._skips = drop_first
         self._echo_next = False
 
     def feed(self, data: bytes) -> list[Line]:
-        """Takes the next bytes of the stream and returns the lines that they complete."""
-        self._pending += data
-        if len(self._pending) > LONGEST_LINE and b"\n" not in self._pending:
-            overlong = bytes(self._pending[:80])
-            self._pending.clear()
-            return [UnknownLine(_text_of(overlong))]
-        *complete, rest = self._pending.split(b"\n")
-        self._pending = bytearray(rest)
-        return [line for raw in complete if (line := self._classify(bytes(raw))) is not None]
+        """Takes the next bytes of the stream and returns the lines that they complete.
+
+        A line that is too long yields an `OverlongLine` as soon as it is.
+        """
+        lines: list[Line] = []
+        *complete, rest = data.split(b"\n")
+        for part in complete:
+            lines += self._extend(part)
+            lines += self._end_line()
+        return lines + self._extend(rest)
 
     def cut(self) -> None:
         """Bytes may be missing from here on: leaves out what comes before the next LF."""
         self._pending.clear()
-        self._drop_next, self._echo_next = True, False
+        self._length = 0
+        self._skips, self._echo_next = True, False
 
-    def _classify(self, raw: bytes) -> Line | None:
-        if self._drop_next:
-            self._drop_next = False
-            return None
+    def _extend(self, part: bytes) -> list[Line]:
+        before, self._length = self._length, self._length + len(part)
+        if not self._skips:
+            self._pending += part[: LONGEST_LINE + 1]
+        if not before <= LONGEST_LINE < self._length:
+            return []
+        text = _text_of(bytes(self._pending[:KEPT_OF_OVERLONG]))
+        self._pending.clear()
+        self._skips, self._echo_next = True, False
+        return [OverlongLine(text)]
+
+    def _end_line(self) -> list[Line]:
+        raw, skipped = bytes(self._pending), self._skips
+        self._pending.clear()
+        self._length, self._skips = 0, False
+        return [] if skipped else [self._classify(raw)]
+
+    def _classify(self, raw: bytes) -> Line:
         if self._echo_next:
             self._echo_next = False
             return Echo(_text_of(raw))
         line = parse_line(raw)
         self._echo_next = isinstance(line, NewData) and line.taken
         return line
+
+
+def is_out_of_travel(stroke_mm: float) -> bool:
+    """Whether no motor can have this stroke."""
+    return not -READING_NOISE_MM <= stroke_mm <= HIGHEST_READING_MM + READING_NOISE_MM
 
 
 def numbers_equal(sent_mm: tuple[float, ...], read_mm: tuple[float, ...]) -> bool:
@@ -220,8 +259,7 @@ def _text_of(raw: bytes) -> str:
 def _parse_telemetry(text: str) -> Line | None:
     if match := _TELEMETRY.fullmatch(text):
         numbers = _numbers(match[1].rstrip(","), ",")
-        lowest, highest = -READING_NOISE_MM, HIGHEST_READING_MM + READING_NOISE_MM
-        return Telemetry(numbers) if all(lowest <= n <= highest for n in numbers) else None
+        return OutOfTravel(numbers) if any(map(is_out_of_travel, numbers)) else Telemetry(numbers)
     if match := _ERRORS.fullmatch(text):
         return ErrorScan(_numbers(match[1].rstrip(","), ","))
     return None

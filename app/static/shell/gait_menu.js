@@ -36,10 +36,16 @@ async function exportFile(store, edits, form) {
 const lineOf = ({ selected, gaits, view }) =>
   view?.id === selected ? view : (gaits.find(({ id }) => id === selected) ?? null);
 
+/** Brings a deleted gait back and shows it; its id is another one where a new gait has its own by now. */
+async function showRestored(deleted, show) {
+  const { id, name } = await api.restore(deleted);
+  if (id !== deleted) toast(`“${name}” is back as ${id}, because another gait has the id ${deleted}.`);
+  await show(id);
+}
+
 function announceDeleted(sentence, id, show) {
   const restore = attempt(async () => {
-    await api.restore(id);
-    await show(id);
+    await showRestored(id, show);
   });
   toast(sentence, { action: { label: "Bring it back", act: restore } });
 }
@@ -209,8 +215,7 @@ async function bringBack(show) {
     ),
   );
   if (!id) return;
-  await api.restore(id);
-  await show(id);
+  await showRestored(id, show);
 }
 
 const COMPANION = ".footfall.json";

@@ -252,6 +252,12 @@ class EditHistoryStore:
                 content = json.dumps(approval, allow_nan=False)
                 connection.execute("INSERT INTO approval(gait, content) VALUES(?,?)", (gait, content))
 
+    def rename(self, gait: str, to: str) -> None:
+        """Keeps everything of a gait under another id, of which nothing is kept yet."""
+        with self._database.writing() as connection:
+            for table in ("open_gait", "history", "version", "approval"):
+                connection.execute(f"UPDATE {table} SET gait=? WHERE gait=?", (to, gait))
+
     def withdraw_approval(self, gait: str) -> bool:
         """Takes a gait's approval away, but not its record; returns whether there was one."""
         with self._database.writing() as connection:

@@ -294,6 +294,30 @@ def test_disconnecting_in_mid_run_stops_the_robot_first(
     assert bridge.snapshot.robot is RobotState.STOPPED
 
 
+def test_of_two_clears_at_once_one_goes_out(bridge: RobotBridge, lockstep: Lockstep) -> None:
+    make_ready(bridge, lockstep)
+    bridge.stop("Ada")
+    until_robot(bridge, RobotState.STOPPED)
+    until(bridge, lambda s: bridge._machine.monitor.stands_still(bridge._now()))
+    refusals: list[str] = []
+
+    def clear() -> None:
+        try:
+            bridge.clear("Ada")
+        except StateError as refusal:
+            refusals.append(refusal.sentence)
+
+    threads = [threading.Thread(target=clear) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(PATIENCE)
+    until_robot(bridge, RobotState.DISARMED)
+    assert len(refusals) == 3
+    sent = b"".join(data for way, data, _ in lockstep.traffic if way is Direction.TO_ROBOT)
+    assert (sent.count(b"<p,1,"), sent.count(b"<s,0>")) == (1, 1)
+
+
 class DeafLine(Transport):
     """A line on which nobody answers."""
 

@@ -70,3 +70,17 @@ def test_a_folder_that_is_gone_is_a_sentence_until_it_is_back(studio: StudioProc
         (data / "elsewhere").rename(data / "gaits")
     assert (refused.status, refused.content["where"]) == (503, str(data / "gaits"))
     assert "pipe" in listed(studio)
+
+
+def test_a_file_under_a_deleted_gaits_name_is_a_new_gait(studio: StudioProcess, data: Path) -> None:
+    made = studio.ask("POST", "/api/gaits?copy_of=walk&name=Gone", {}).content
+    gait, path = made["id"], data / "gaits" / f"{made['id']}.json"
+    kept = path.read_text()
+    studio.ask("PUT", f"/api/gaits/{gait}", {**made["document"], "name": "Edited"})
+    assert studio.ask("DELETE", f"/api/gaits/{gait}").status == 200
+    path.write_text(kept)
+    fresh = studio.ask("GET", f"/api/gaits/{gait}/view").content
+    assert (fresh["name"], fresh["edited"]) == ("Gone", False)
+    assert studio.ask("GET", f"/api/gaits/{gait}/versions").content["versions"] == []
+    back = studio.ask("POST", f"/api/gaits/{gait}/restore").content
+    assert (back["id"], studio.ask("GET", f"/api/gaits/{gait}/view").status) == (f"{gait}-2", 200)

@@ -279,7 +279,7 @@ def test_deleted_gaits_have_the_last_one_first(tmp_path: Path) -> None:
     for gait_id in ("c", "a", "e", "b"):
         files.remove(gait_id)
     assert files.deleted_ids() == ("b", "e", "a", "c")
-    files.restore("e")
+    files.restore("e", "e")
     files.remove("e")
     assert files.deleted_ids() == ("e", "b", "a", "c")
     assert files.ids() == ("d",)

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.wire.lines import (
+    KEPT_OF_OVERLONG,
     LONGEST_LINE,
     Blank,
     CurrentPoint,
@@ -19,6 +20,8 @@ from core.wire.lines import (
     Line,
     LineReader,
     NewData,
+    OutOfTravel,
+    OverlongLine,
     PointCount,
     PointDuration,
     PointReached,
@@ -82,7 +85,6 @@ def test_an_overflow_in_the_errors_is_read_as_infinite() -> None:
         f"j,{COMMAS}"[:-1],
         f"j,{COMMAS}1.0000,",
         "j,0.5040,0.5040,",
-        f"j,{COMMAS}".replace("19.5000", "25.0000"),
         f"j,{COMMAS}".replace("19.5000", "nan"),
         f"j,{COMMAS}".replace("19.5000", "19.5"),
         "new data tf 2",
@@ -92,6 +94,12 @@ def test_an_overflow_in_the_errors_is_read_as_infinite() -> None:
 )
 def test_a_line_that_is_not_quite_right_is_unknown(text: str) -> None:
     assert parse_line(text.encode()) == UnknownLine(text)
+
+
+@pytest.mark.parametrize("stroke", [25.0, -9.0, 999.9999])
+def test_strokes_that_no_motor_can_have_are_no_telemetry(stroke: float) -> None:
+    line = parse_line(f"j,{COMMAS}".replace("19.5000", f"{stroke:.4f}").encode())
+    assert line == OutOfTravel((*TWELVE[:-1], stroke))
 
 
 @given(st.binary())
@@ -153,10 +161,24 @@ def test_an_echo_is_never_taken_for_a_line_of_the_robot(payload: str) -> None:
     assert lines == [NewData(taken=True), Echo(payload), NewData(taken=False)]
 
 
-def test_a_line_without_end_does_not_fill_the_memory() -> None:
+@pytest.mark.parametrize("drop_first", [False, True])
+@pytest.mark.parametrize("piece", [1 << 10, 3 << 20])
+def test_a_line_without_end_is_cut_once_and_its_rest_is_no_line(piece: int, drop_first: bool) -> None:
+    reader = LineReader(drop_first=drop_first)
+    lines = [line for _ in range(40 if piece < LONGEST_LINE else 2) for line in reader.feed(b"\0" * piece)]
+    assert [type(line) for line in lines] == [OverlongLine]
+    assert len(reader._pending) <= LONGEST_LINE
+    assert reader.feed(b"end of all available trajectories\r\nnew data tf 0\r\n") == [NewData(taken=False)]
+
+
+def test_an_overlong_line_that_ends_in_the_same_piece_is_cut_too_and_an_overlong_echo_is_none() -> None:
     reader = LineReader(drop_first=False)
-    assert isinstance(reader.feed(b"x" * (LONGEST_LINE + 1))[0], UnknownLine)
-    assert reader.feed(b"\n") == [Blank()]
+    stream = (
+        b"new data tf 1\n" + b"x" * (LONGEST_LINE + 1) + b"\nnew data tf 1\n" + b"y" * LONGEST_LINE + b"\n"
+    )
+    cut = OverlongLine("x" * KEPT_OF_OVERLONG)
+    taken = NewData(taken=True)
+    assert reader.feed(stream) == [taken, cut, taken, Echo("y" * LONGEST_LINE)]
 
 
 def test_numbers_are_equal_to_the_fourth_decimal_only() -> None:

@@ -215,8 +215,9 @@ def load_robot(name: str) -> RobotModel:
     return robot_from_table(robot_table(name), f"{name}.toml")
 
 
+@cache
 def robot_table(name: str) -> dict[str, Any]:
-    """A robot's parameters file as it stands.
+    """A robot's parameters file as it stands; the content is shared, so nobody changes it.
 
     Raises:
         InputError: there is no robot of that name.

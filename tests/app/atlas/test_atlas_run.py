@@ -186,7 +186,7 @@ def test_an_atlas_of_another_format_or_version_is_refused(tmp_path: Path) -> Non
 
 def test_reading_an_atlas_that_is_gone_makes_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     gone = tmp_path / "gone.sqlite"
-    monkeypatch.setattr(Path, "is_file", lambda path: True)
+    monkeypatch.setattr(Path, "exists", lambda path: True)
     with pytest.raises(StorageError):
         AtlasFile(gone)
     assert not gone.exists()

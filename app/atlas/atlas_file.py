@@ -7,37 +7,61 @@ import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from urllib.parse import quote
+from types import MappingProxyType
 
-from app.atlas.physics_table import physics_rows, store_physics_row
+from app.atlas.about import about_content, fitting_space, read_about
+from app.atlas.guarded_connection import (
+    StepLimit,
+    allow_rows_alone,
+    guarded_connection,
+    real_path,
+    written_ahead,
+)
+from app.atlas.physics_table import PHYSICS_TABLE, physics_rows, store_physics_row
+from app.atlas.stored_values import MOST_GAITS, StoredValues, parameter_bounds, require_tables
 from app.common.json import Json
-from app.common.version import VERSION
 from app.store.storage_errors import storage_error
 from core.atlas.axes import KEYS
 from core.atlas.physics_row import PhysicsRow
 from core.atlas.point import AtlasPoint
 from core.atlas.row import FIGURES, AtlasRow, RowStatus, results_hash
-from core.atlas.space import AtlasSpace, space_from_table
+from core.atlas.space import AtlasSpace
 from core.errors import InputError, NotFoundError, StorageError
+from core.text.documents import as_written
 from solver_jobs import Chunk, EvaluatedGaits
 
-FORMAT, FORMAT_VERSION = "footfall-atlas", 1
 CHUNK = 400
 """Gaits of a chunk, which are evaluated together and stored in one transaction."""
+LEAST_NUMBER = -(2**63)
+"""Least whole number of SQLite; each row has a larger one."""
 PAGE = 10_000
 """Rows that are read at one time."""
-WAIT_SECONDS = 30.0
-"""How long another program may write to the file before it counts as busy."""
-_TABLES = f"""
-CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL);
-CREATE TABLE gaits (
+WAIT_SECONDS, READ_WAIT_SECONDS = 30.0, 2.0
+"""How long another program may write to the file before it counts as busy, for a run and for a reader."""
+_TABLES = (
+    "CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL)",
+    f"""CREATE TABLE gaits (
     id INTEGER PRIMARY KEY,
     status TEXT NOT NULL,
     reason TEXT NOT NULL,
     {", ".join(f"{name} REAL" for name in FIGURES)},
     parameters TEXT NOT NULL
-);
-"""
+)""",
+)
+_STATUSES: Mapping[object, RowStatus] = MappingProxyType({status.value: status for status in RowStatus})
+_IN_THE_FILE = frozenset(
+    {
+        sqlite3.SQLITE_ERROR,
+        sqlite3.SQLITE_CORRUPT,
+        sqlite3.SQLITE_NOTADB,
+        sqlite3.SQLITE_FORMAT,
+        sqlite3.SQLITE_TOOBIG,
+        sqlite3.SQLITE_AUTH,
+        sqlite3.SQLITE_SCHEMA,
+        sqlite3.SQLITE_INTERRUPT,
+    }
+)
+"""Faults that lie in the file itself."""
 _COLUMNS = ("id", "status", "reason", *FIGURES, "parameters")
 
 
@@ -47,6 +71,7 @@ class AtlasFile:
     Args:
         path: the file.
         space: of a file that is made, or that has to hold this space; None to take that of the file.
+        adds: whether rows are added without a `space`; a file that is only read is opened so.
 
     Attributes:
         space: what its gaits are drawn from.
@@ -58,25 +83,44 @@ class AtlasFile:
         StorageError: the disk does not take it.
     """
 
-    def __init__(self, path: Path, space: AtlasSpace | None = None) -> None:
+    def __init__(self, path: Path, space: AtlasSpace | None = None, *, adds: bool = False) -> None:
         self.path = path
         self._lock = threading.Lock()
-        if space is None and not path.is_file():
-            raise NotFoundError(f"There is no atlas {path}. Make one with footfall atlas run.", str(path))
-        is_new = not path.exists() or path.stat().st_size == 0
+        makes, adds = space is not None, adds or space is not None
         with self._sentences():
+            self._real = real_path(path)
+            is_there = self._real.exists()
+            if not (makes or is_there):
+                raise NotFoundError(f"There is no atlas {path}. Make one with footfall atlas run.", str(path))
+            is_new = not is_there or self.size == 0
             # A file that is only read is not made where somebody has just taken it away.
-            address = f"file:{quote(str(path.absolute()))}?mode={'rw' if space is None else 'rwc'}"
-            self._connection = sqlite3.connect(
-                address, uri=True, check_same_thread=False, timeout=WAIT_SECONDS
+            self._connection = guarded_connection(
+                path, WAIT_SECONDS if adds else READ_WAIT_SECONDS, adds=adds, makes=makes
             )
             try:
                 if is_new and space is not None:
                     self._make(space)
-                self.space, self.version = self._opened(space)
+                self._limit = StepLimit(self._connection)
+                self._limit.begin_schema()
+                if self._connection.execute("PRAGMA journal_mode").fetchone()[0] == "wal":
+                    raise written_ahead(path)
+                allow_rows_alone(self._connection, adds=adds)
+                require_tables(self._connection, path, _TABLES, PHYSICS_TABLE)
+                self._about = read_about(self._connection, path)
+                self.space, self.version = fitting_space(self._about, space, path), self._about["program"]
+                self._bounds = parameter_bounds(self.space.axes)
             except BaseException:
                 self._connection.close()
                 raise
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file.
+
+        Raises:
+            OSError: it is gone.
+        """
+        return self._real.stat().st_size
 
     def close(self) -> None:
         """Closes the file."""
@@ -111,9 +155,28 @@ class AtlasFile:
 
     def counts(self) -> dict[RowStatus, int]:
         """How many gaits have each status."""
+        return self.summary()[0]
+
+    def summary(self) -> tuple[dict[RowStatus, int], float | None]:
+        """How many gaits have each status, and the speed of the fastest solved one in m/s, if there is one.
+
+        Raises:
+            InputError: a status, a number or a speed cannot be one of an atlas.
+        """
+        first, last = ("(SELECT min(id) FROM gaits)", "(SELECT max(id) FROM gaits)")
+        each = ", ".join(f"count(*) FILTER (WHERE status = '{status.value}')" for status in RowStatus)
+        query = f"SELECT count(*), {first}, {last}, max(speed) FILTER (WHERE status = ?), {each} FROM gaits"
         with self._reading() as connection:
-            found = dict(connection.execute("SELECT status, count(*) FROM gaits GROUP BY status").fetchall())
-        return {status: found.get(status.value, 0) for status in RowStatus}
+            total, least, most, speed, *counts = connection.execute(
+                query, (RowStatus.SOLVED.value,)
+            ).fetchone()
+        values = StoredValues(self.path)
+        if total != sum(counts):
+            raise values.fault(f"{total - sum(counts):,} of its {total:,} gaits have an unknown status")
+        for number in (least, most) if total else ():
+            values.whole(number, "the number of a gait", 0, MOST_GAITS - 1)
+        fastest = None if speed is None else values.figure(speed, "the speed of a gait")
+        return dict(zip(RowStatus, counts, strict=True)), fastest
 
     def rows(self, status: RowStatus | None = None) -> Iterator[AtlasRow]:
         """Rows in the order of their numbers.
@@ -128,15 +191,16 @@ class AtlasFile:
         """Rows in the order of their numbers, each with its parameters as JSON content."""
         wanted = ("AND status = ?", (status.value,)) if status is not None else ("", ())
         query = f"SELECT {', '.join(_COLUMNS)} FROM gaits WHERE id > ? {wanted[0]} ORDER BY id LIMIT {PAGE}"
-        last = -1
+        last, values = LEAST_NUMBER, StoredValues(self.path)
         while True:
-            with self._reading() as connection:
-                found = connection.execute(query, (last, *wanted[1])).fetchall()
-            for values in found:
-                yield _row(values), json.loads(values[-1])
+            with self._reading(values) as connection:
+                found = [
+                    self._entry(stored, values) for stored in connection.execute(query, (last, *wanted[1]))
+                ]
+            yield from found
             if len(found) < PAGE:
                 return
-            last = found[-1][0]
+            last = found[-1][0].number
 
     def entry(self, number: int) -> tuple[AtlasRow, Json]:
         """One gait's row and parameters.
@@ -144,25 +208,36 @@ class AtlasFile:
         Raises:
             NotFoundError: the atlas has none of that number.
         """
-        with self._reading() as connection:
+        values = StoredValues(self.path)
+        if not isinstance(number, int) or isinstance(number, bool) or not 0 <= number < MOST_GAITS:
+            raise NotFoundError(
+                f"{self.path} has no gait {as_written(number)}; gaits have numbers from 0.", "ID"
+            )
+        with self._reading(values) as connection:
             query = f"SELECT {', '.join(_COLUMNS)} FROM gaits WHERE id = ?"
-            values = connection.execute(query, (number,)).fetchone()
-            count = connection.execute("SELECT count(*) FROM gaits").fetchone()[0]
-        if values is None:
+            stored = connection.execute(query, (number,)).fetchone()
+        if stored is None:
+            count = sum(self.counts().values())
             raise NotFoundError(f"{self.path} has no gait {number}; it has {count} gaits.", "ID")
-        return _row(values), json.loads(values[-1])
+        return self._entry(stored, values)
 
-    def fastest(self) -> float | None:
-        """Speed of its fastest solved gait, m/s; None where none is solved."""
-        with self._reading() as connection:
-            query = "SELECT max(speed) FROM gaits WHERE status = ?"
-            found = connection.execute(query, (RowStatus.SOLVED.value,)).fetchone()[0]
-        return None if found is None else float(found)
+    def _entry(self, stored: Sequence[object], values: StoredValues) -> tuple[AtlasRow, Json]:
+        number = values.number(stored[0])
+        status = _STATUSES.get(stored[1])
+        if status is None:
+            raise values.fault(
+                f"the status of gait {number} must be one of {', '.join(RowStatus)}", stored[1]
+            )
+        reason = values.text(stored[2], "a reason")
+        figures = [values.figure(value, "a figure") for value in stored[3:-1]]
+        parameters = values.parameters(stored[-1], number, self._bounds)
+        return AtlasRow(number, status, reason, *figures), parameters
 
     def physics(self) -> dict[int, PhysicsRow]:
         """What physics made of the gaits that were simulated, by their numbers."""
-        with self._reading() as connection:
-            return physics_rows(connection)
+        values = StoredValues(self.path)
+        with self._reading(values) as connection:
+            return physics_rows(connection, values)
 
     def add_physics(self, row: PhysicsRow) -> None:
         """Stores what physics made of a gait; it is on disk when this ends without an error.
@@ -184,7 +259,7 @@ class AtlasFile:
     @property
     def robot_hash(self) -> str:
         """SHA-256 of the robot's parameters with which it was made."""
-        return self._about()["robot_hash"]
+        return self._about["robot_hash"]
 
     def require_same_robot(self) -> None:
         """The robot's parameters are still those with which the atlas was made.
@@ -200,67 +275,18 @@ class AtlasFile:
             )
 
     def _make(self, space: AtlasSpace) -> None:
-        about = {
-            "format": FORMAT,
-            "version": str(FORMAT_VERSION),
-            "program": VERSION,
-            "space": json.dumps(space.content(), sort_keys=True),
-            "space_hash": space.hash,
-            "robot_hash": space.robot_hash,
-        }
         with self._connection:
-            self._connection.executescript("BEGIN;" + _TABLES)
-            self._connection.executemany("INSERT INTO about VALUES (?, ?)", about.items())
-
-    def _opened(self, space: AtlasSpace | None) -> tuple[AtlasSpace, str]:
-        """The space and the program's version of a file that this program can go on with.
-
-        Raises:
-            InputError: it cannot.
-        """
-        try:
-            about = self._about()
-            missing = {"format", "version", "program", "space", "space_hash", "robot_hash"} - set(about)
-        except sqlite3.DatabaseError as error:
-            raise InputError(f"{self.path} is no atlas. Choose another file.", str(self.path)) from error
-        if missing:
-            raise InputError(f"{self.path} is no atlas. Choose another file.", str(self.path))
-        if about.get("format") != FORMAT:
-            raise InputError(f"{self.path} is no atlas. Choose another file.", str(self.path))
-        if about["version"] != str(FORMAT_VERSION):
-            raise InputError(
-                f"{self.path} is an atlas of format {about['version']}, and this program reads "
-                f"{FORMAT_VERSION}. Update the program, or choose another file.",
-                str(self.path),
-            )
-        own = space_from_table(json.loads(about["space"]), str(self.path))
-        if space is None:
-            return own, about["program"]
-        if space.hash != about["space_hash"]:
-            raise InputError(
-                f"{self.path} is an atlas of another space. Choose another file, or give the space that it "
-                "was made of.",
-                str(self.path),
-            )
-        if space.robot_hash != about["robot_hash"]:
-            raise InputError(
-                f"{self.path} was made with other parameters of {space.robot}. Choose another file.",
-                str(self.path),
-            )
-        if about["program"] != VERSION:
-            raise InputError(
-                f"{self.path} was made by version {about['program']} of this program, which may solve gaits "
-                f"otherwise than {VERSION}. Choose another file.",
-                str(self.path),
-            )
-        return own, about["program"]
-
-    def _about(self) -> Mapping[str, str]:
-        return dict(self._connection.execute("SELECT key, value FROM about").fetchall())
+            self._connection.executescript(";".join(("BEGIN", *_TABLES)))
+            self._connection.executemany("INSERT INTO about VALUES (?, ?)", about_content(space).items())
 
     @contextmanager
-    def _reading(self) -> Iterator[sqlite3.Connection]:
+    def _reading(self, values: StoredValues | None = None) -> Iterator[sqlite3.Connection]:
+        """The connection for one statement, whose values are looked at before it ends."""
         with self._sentences(), self._lock:
+            state = self._real.stat()
+            self._limit.begin(state)
+            if values is not None:
+                values.size = state.st_size
             yield self._connection
 
     @contextmanager
@@ -273,6 +299,15 @@ class AtlasFile:
         try:
             yield
         except sqlite3.Error as error:
+            code = getattr(error, "sqlite_errorcode", None)
+            is_no_text = code is None and "decode" in str(error)
+            if is_no_text or (code is not None and code & 0xFF in _IN_THE_FILE):
+                words = (
+                    "it takes more work than an atlas of its size"
+                    if code == sqlite3.SQLITE_INTERRUPT
+                    else error
+                )
+                raise StoredValues(self.path).fault(f"{words}") from error
             known = storage_error(error, self.path)
             if known is None:
                 raise
@@ -285,14 +320,6 @@ class AtlasFile:
 
 def _or_none(value: float) -> float | None:
     return None if math.isnan(value) else value
-
-
-def _row(values: Sequence[object]) -> AtlasRow:
-    figures = {
-        name: math.nan if value is None else float(str(value))
-        for name, value in zip(FIGURES, values[3:-1], strict=True)
-    }
-    return AtlasRow(int(str(values[0])), RowStatus(str(values[1])), str(values[2]), **figures)
 
 
 def _written(point: AtlasPoint) -> str:

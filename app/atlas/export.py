@@ -9,6 +9,7 @@ from app.atlas.atlas_file import AtlasFile
 from app.atlas.entries import entries_with_physics
 from app.atlas.map_page import map_page
 from app.common.json import Json
+from app.common.table_cell import table_cell
 from app.store.named_file import form_of, write_named
 from core.atlas.row import FIGURES, AtlasRow
 from core.errors import InputError
@@ -69,9 +70,10 @@ def table_row(row: AtlasRow, parameters: Json) -> dict[str, Any]:
 def _csv(entries: list[tuple[AtlasRow, Json]]) -> str:
     text = io.StringIO()
     rows = [table_row(*entry) for entry in entries]
-    writer = csv.DictWriter(text, list(rows[0]) if rows else ["id", "status", "reason", *FIGURES])
-    writer.writeheader()
-    writer.writerows(rows)
+    writer = csv.writer(text)
+    writer.writerow(map(table_cell, rows[0] if rows else ["id", "status", "reason", *FIGURES]))
+    for row in rows:
+        writer.writerow(table_cell(value) if isinstance(value, str) else value for value in row.values())
     return text.getvalue()
 
 

@@ -1,5 +1,6 @@
 """The atlases of a data folder, by name, and those that come with the program."""
 
+import os
 import re
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
@@ -53,7 +54,7 @@ class AtlasLibrary:
     def _content(self, name: str) -> Json:
         try:
             with self.opened(name) as atlas:
-                counts, space = atlas.counts(), atlas.space
+                (counts, fastest), space = atlas.summary(), atlas.space
                 return {
                     "name": name,
                     "included": name in INCLUDED,
@@ -62,12 +63,12 @@ class AtlasLibrary:
                     "seed": space.seed,
                     "gaits": sum(counts.values()),
                     **{status.value: counts[status] for status in RowStatus},
-                    "fastest": atlas.fastest(),
+                    "fastest": fastest,
                     "program": atlas.version,
                     "robot_hash": atlas.robot_hash,
                     "robot_changed": atlas.robot_hash != space.robot_hash,
                     "space_hash": space.hash,
-                    "bytes": atlas.path.stat().st_size if atlas.path.exists() else 0,
+                    "bytes": atlas.size,
                 }
         except FootfallError as error:
             return {"name": name, "included": name in INCLUDED, "trouble": error.sentence}
@@ -107,7 +108,7 @@ class AtlasLibrary:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise file_error(error, self._folder) from error
-        if space is None and path.is_file():
+        if space is None and os.path.lexists(path):
             with closing(AtlasFile(path)) as known:
                 space = known.space
         return AtlasFile(path, space or default_space("deltawalker"))
@@ -132,7 +133,7 @@ class AtlasLibrary:
         """
         path = self._folder / f"{name}{SUFFIX}"
         deleted = path.with_name(path.name + DELETED)
-        if _NAME.fullmatch(name) is None or not deleted.is_file():
+        if _NAME.fullmatch(name) is None or not os.path.lexists(deleted):
             raise NotFoundError(f"No atlas “{name}” was deleted since the studio started.", "name")
         if path.exists():
             raise StateError(f"There is another atlas “{name}” by now. Delete it first.", "name")
@@ -142,7 +143,7 @@ class AtlasLibrary:
         if name in INCLUDED:
             return INCLUDED[name]
         path = self._folder / f"{name}{SUFFIX}"
-        if _NAME.fullmatch(name) is None or not path.is_file():
+        if _NAME.fullmatch(name) is None or not os.path.lexists(path):
             raise NotFoundError(f"There is no atlas “{name}” (see GET /api/atlases).", "name")
         return path
 

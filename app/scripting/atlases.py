@@ -22,7 +22,9 @@ from app.atlas.opening import opened_gait
 from app.atlas.physics import run_physics
 from app.atlas.physics_choice import physics_choice, physics_rule
 from app.atlas.run import Engine, LocalEngine, run_atlas
+from app.atlas.stored_values import MOST_GAITS
 from app.cli.atlas.commands import atlas_space
+from app.cli.atlas.options import MOST_WORKERS
 from app.scripting.gaits import Gait
 from app.scripting.html import table
 from app.scripting.progress import progress_bar
@@ -30,6 +32,7 @@ from core.arrays import Floats
 from core.atlas.row import RowStatus
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import InputError
+from core.text.documents import as_written
 
 _SHOWN = ("id", "speed", "margin", "order", "step_x", "step_y", "turn", "stop_bound")
 
@@ -217,6 +220,8 @@ def atlas(
         >>> ff.atlas(file, count=4, space={"vary": {"step_x": [0.010, 0.012]}}, workers=1)
         <Atlas small.sqlite: 4 solved, 0 infeasible, 0 failed>
     """
+    _require_whole("count", count, MOST_GAITS)
+    _require_whole("workers", workers, MOST_WORKERS)
     where = included_or(Path(path)) if count is None else Path(path)
     rule = None if physics is None else physics_rule(physics, "physics")
     makes_new = count is not None and str(path) in INCLUDED and not where.exists()
@@ -226,7 +231,8 @@ def atlas(
             "ff.atlas(FILE.sqlite, count=N).",
             "path",
         )
-    with closing(AtlasFile(where, None if count is None else _space(robot, space, seed))) as file:
+    wanted = None if count is None else _space(robot, space, seed)
+    with closing(AtlasFile(where, wanted, adds=rule is not None)) as file:
         if count is not None:
             _run(file, count, workers, dask)
         if rule is not None:
@@ -243,9 +249,13 @@ def _space(robot: str | None, space: str | Path | Mapping[str, Any] | None, seed
     return space_from_table({**space, **own, **drawn}, "the space")
 
 
+def _require_whole(name: str, value: int | None, most: int) -> None:
+    is_whole = isinstance(value, int) and not isinstance(value, bool)
+    if value is not None and not (is_whole and 1 <= value <= most):
+        raise InputError(f"{name} is {as_written(value)}; it must be a whole number from 1 to {most}.", name)
+
+
 def _run(file: AtlasFile, count: int, workers: int | None, dask: str | None) -> None:
-    if count < 1:
-        raise InputError(f"count is {count}; it must be at least 1.", "count")
     processes = workers or os.cpu_count() or 1
     engine: Engine = LocalEngine(processes) if dask is None else DaskEngine(dask, processes)
     with progress_bar("Atlas") as tell:

@@ -33,6 +33,8 @@ def read_plain_file(path: Path, most: int) -> bytes:
         raise
     except OSError as error:
         raise InputError(_why_not_opened(path, error), path.name) from error
+    except ValueError as error:
+        raise InputError("The name of a file holds the character U+0000. Leave it out.", "path") from error
     state = os.fstat(file)
     if not stat.S_ISREG(state.st_mode):
         os.close(file)

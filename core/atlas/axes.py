@@ -10,9 +10,15 @@ from core.errors import InputError
 from core.pose_gaits.pose_problem import MOST_TURN, POSE_BOUNDS
 from core.problem.motion_problem import PLANE_HEIGHTS
 from core.text.documents import as_written
-from core.text.numbers import plain_whole
+from core.text.numbers import plain_whole, shortened
 
 CHOICES = "choices"
+MOST_CHOICES = 1_000
+"""Choices of a key."""
+FINEST = 1e-6
+"""Least size of a step in m, or of a turn in rad, that is not 0."""
+MOST_MOVES = 2
+"""Into so many parts each move is divided at most."""
 ROBOT = "robot."
 """How keys for numbers of the robot begin."""
 
@@ -38,8 +44,8 @@ class Axis:
 
     @property
     def ends(self) -> tuple[Any, ...]:
-        """Both ends of a range, or every choice."""
-        return self.choices if self.low is None else (self.low, self.high)
+        """The least and the largest number of a range or of choices."""
+        return (min(self.choices), max(self.choices)) if self.low is None else (self.low, self.high)
 
     def value(self, place: float) -> Any:
         """The value at a place from 0 up to, not including, 1."""
@@ -63,6 +69,7 @@ class Key:
         is_number: whether it may be a range.
         least: smallest number.
         most: largest number.
+        finest: least size of a number that is not 0.
     """
 
     name: str
@@ -71,6 +78,7 @@ class Key:
     is_number: bool = False
     least: float = -math.inf
     most: float = math.inf
+    finest: float = 0.0
 
     def axis(self, written: Any) -> Axis:
         """The axis of what a file has for this key.
@@ -84,15 +92,20 @@ class Key:
         values = written.get(CHOICES) if isinstance(written, Mapping) else written
         is_range = self.is_number and not isinstance(written, Mapping) and _is_pair(values)
         if isinstance(written, Mapping) and set(written) != {CHOICES}:
+            keys = shortened(", ".join(map(str, written))) or "an empty table"
             raise InputError(
-                f"{self.name} has {', '.join(map(str, written)) or 'an empty table'}. Write a range of two "
-                "numbers, or {choices = [A, B]}.",
-                self.name,
+                f"{self.name} has {keys}. Write a range of two numbers, or {{choices = [A, B]}}.", self.name
             )
         listed = list(values) if isinstance(values, Sequence) and not isinstance(values, str) else [values]
         if not listed:
             raise InputError(
                 f"{self.name} has no value. Write a range of two numbers, or a list of choices.", self.name
+            )
+        if len(listed) > MOST_CHOICES:
+            raise InputError(
+                f"{self.name} has {len(listed):,} choices; at most {MOST_CHOICES:,} are taken. Write "
+                f"{'a range of two numbers' if self.is_number else 'fewer'}.",
+                self.name,
             )
         if is_range:
             low, high = (self._value(value) for value in listed)
@@ -108,12 +121,16 @@ class Key:
     def _value(self, written: Any) -> Any:
         try:
             value = self.read(written)
-        except (TypeError, ValueError) as error:
+        except (OverflowError, TypeError, ValueError) as error:
             raise self._refusal(written) from error
         if self.is_number and not self.least <= value <= self.most:
             raise InputError(
                 f"{self.name} is {value:g}; it must lie between {self.least:.4g} and {self.most:.4g}.",
                 self.name,
+            )
+        if self.is_number and 0.0 < abs(value) < self.finest:
+            raise InputError(
+                f"{self.name} is {value:g}; it must be 0, or at least {self.finest:g} in size.", self.name
             )
         return value
 
@@ -127,7 +144,7 @@ def _is_pair(values: Any) -> bool:
 
 def _number(written: Any) -> float:
     if isinstance(written, bool) or not isinstance(written, int | float) or not math.isfinite(written):
-        raise ValueError(written)
+        raise TypeError(type(written))
     return float(written)
 
 
@@ -156,7 +173,7 @@ def _order(written: Any) -> tuple[int, ...] | str:
 
 
 def _parts(written: Any) -> int:
-    if _whole(written) not in (1, 2):
+    if not 1 <= _whole(written) <= MOST_MOVES:
         raise ValueError(written)
     return int(written)
 
@@ -165,8 +182,8 @@ def _limits(name: str) -> tuple[float, float]:
     return POSE_BOUNDS[name]
 
 
-def _number_key(name: str, unit: str, least: float, most: float) -> Key:
-    return Key(name, _number, f"a number of {unit}", True, least, most)
+def _number_key(name: str, unit: str, least: float, most: float, finest: float = 0.0) -> Key:
+    return Key(name, _number, f"a number of {unit}", True, least, most, finest)
 
 
 KEYS: Mapping[str, Key] = MappingProxyType(
@@ -176,9 +193,9 @@ KEYS: Mapping[str, Key] = MappingProxyType(
             Key("order", _order, 'a foot order such as "3,2,4,1", or "all"'),
             Key("overlap", _truth, "true or false"),
             Key("moves", _parts, "1, or 2 where each move is divided"),
-            _number_key("step_x", "m", -0.2, 0.2),
-            _number_key("step_y", "m", -0.2, 0.2),
-            _number_key("turn", "rad", -MOST_TURN, MOST_TURN),
+            _number_key("step_x", "m", -0.2, 0.2, FINEST),
+            _number_key("step_y", "m", -0.2, 0.2, FINEST),
+            _number_key("turn", "rad", -MOST_TURN, MOST_TURN, FINEST),
             _number_key("height", "m", *PLANE_HEIGHTS),
             _number_key("clearance", "m", *_limits("clearance")),
             _number_key("margin", "m", *_limits("margin")),

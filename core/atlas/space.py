@@ -20,8 +20,13 @@ from core.gait.foot_orders import named_orders
 from core.gait.gait import Orientation
 from core.robot.model import RobotModel, load_robot, robot_from_table, robot_table
 from core.text.documents import as_written, toml_content
+from core.text.numbers import shortened
 
 MOST_SEED = 2**31 - 1
+MOST_CHANGE = 10
+"""How many times a number of the robot may be larger or smaller than in its parameters file."""
+MOST_TABLES = 4
+"""Names before the last one in the key of a number of the robot."""
 ALL_ORDERS_LEGS = 5
 """Robots with more legs have too many foot orders for “all”; those that have a name stand for them."""
 
@@ -88,8 +93,12 @@ class AtlasSpace:
         return AtlasPoint(number=number, robot=self.robot, numbers=numbers, **own)
 
     def drawn_by(self, seed: int | None) -> "AtlasSpace":
-        """The same space with another seed; None for its own."""
-        return self if seed is None else replace(self, seed=seed)
+        """The same space with another seed; None for its own.
+
+        Raises:
+            InputError: it is no whole number, or too large.
+        """
+        return self if seed is None else replace(self, seed=_seed(seed))
 
     def model(self, numbers: tuple[tuple[str, float], ...]) -> RobotModel:
         """The robot with some numbers of its parameters file changed.
@@ -135,7 +144,8 @@ def _place(table: dict[str, Any], name: str, key: str) -> tuple[dict[str, Any], 
     is_number = isinstance(section, dict) and isinstance(section.get(last), float | int)
     if not is_number or isinstance(section[last], bool):
         raise InputError(
-            f"{key} is no number of {name}.toml. Write robot.TABLE.KEY, such as robot.leg.link_length.",
+            f"{shortened(key)} is no number of {name}.toml. Write robot.TABLE.KEY, such as "
+            "robot.leg.link_length.",
             key,
         )
     return section, last
@@ -160,10 +170,9 @@ def space_from_table(table: Mapping[str, Any], where: str) -> AtlasSpace:
     Raises:
         InputError: a key is unknown, a range is empty, or a value does not fit.
     """
-    unknown = sorted(set(table) - {"robot", "kind", "seed", "vary"})
-    if unknown:
+    for key in sorted(map(str, set(table) - {"robot", "kind", "seed", "vary"})):
         raise InputError(
-            f"{where} has the unknown key {unknown[0]}. A space has robot, kind, seed and [vary].", unknown[0]
+            f"{where} has the unknown key {shortened(key)}. A space has robot, kind, seed and [vary].", key
         )
     robot = table.get("robot", "deltawalker")
     if not isinstance(robot, str):
@@ -174,17 +183,21 @@ def space_from_table(table: Mapping[str, Any], where: str) -> AtlasSpace:
         raise InputError(
             f"kind is {as_written(table['kind'])}; it must be one of {', '.join(kinds)}.", "kind"
         )
-    kind, seed = AtlasKind(table.get("kind", "fast")), table.get("seed", 0)
-    if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed <= MOST_SEED:
-        raise InputError(
-            f"seed is {as_written(seed)}; it must be a whole number from 0 to {MOST_SEED}.", "seed"
-        )
+    kind, seed = AtlasKind(table.get("kind", "fast")), _seed(table.get("seed", 0))
     vary = table.get("vary")
     if not isinstance(vary, Mapping) or not vary:
         raise InputError(f"{where} has no table [vary], which says what varies.", "vary")
     axes = _axes(vary, model, where)
     _require_fitting(axes, kind, model)
     return AtlasSpace(robot, kind, seed, MappingProxyType(axes))
+
+
+def _seed(value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= MOST_SEED:
+        raise InputError(
+            f"seed is {as_written(value)}; it must be a whole number from 0 to {MOST_SEED}.", "seed"
+        )
+    return value
 
 
 def default_space(robot: str) -> AtlasSpace:
@@ -212,42 +225,65 @@ def usual_order(model: RobotModel) -> tuple[int, ...]:
 
 def _axes(vary: Mapping[str, Any], model: RobotModel, where: str) -> dict[str, Axis]:
     """The axes in the order of the draw: the gait's keys, then the robot's numbers by name."""
-    flat = {name: value for name, value in vary.items() if name != "robot"}
+    flat = {str(name): value for name, value in vary.items() if name != "robot"}
     flat |= _flat(ROBOT.rstrip("."), vary.get("robot", {}))
     unknown = [name for name in flat if name not in KEYS and not name.startswith(ROBOT)]
     if unknown:
         raise InputError(
-            f"[vary] in {where} has the unknown key {unknown[0]}. It may have {', '.join(KEYS)}, and "
-            "robot.TABLE.KEY for a number of the robot's parameters file.",
+            f"[vary] in {where} has the unknown key {shortened(unknown[0])}. It may have {', '.join(KEYS)}, "
+            "and robot.TABLE.KEY for a number of the robot's parameters file.",
             unknown[0],
         )
     axes = {name: key.axis(flat[name]) for name, key in KEYS.items() if name in flat}
     if "order" in axes:
         axes["order"] = _orders(axes["order"], model)
     for name in sorted(name for name in flat if name.startswith(ROBOT)):
+        usual = robot_number(model.name, name)
         axes[name] = robot_key(name).axis(flat[name])
         for value in axes[name].ends:
-            _require_sign(name, value, robot_number(model.name, name))
+            _require_near(name, value, usual)
             varied_robot(model.name, ((name, value),))
+    _require_legs(axes, model)
     return axes
 
 
-def _require_sign(name: str, value: float, usual: float) -> None:
-    """A length, a mass or a speed that is larger than 0 in the robot's file stays so.
+def _require_near(name: str, value: float, usual: float) -> None:
+    """A number of the robot stays within `MOST_CHANGE` times what the robot's file has.
 
     Raises:
         InputError: it does not.
     """
-    if usual > 0.0 >= value:
+    least, most = sorted((usual / MOST_CHANGE, usual * MOST_CHANGE))
+    if not least <= value <= most:
         raise InputError(
-            f"{name} is {value:g}; it must be larger than 0, as in the robot's parameters file ({usual:g}).",
+            f"{name} is {value:g}; it must lie between {least:g} and {most:g}: the robot's parameters file "
+            f"has {usual:g}, and it may be {MOST_CHANGE} times larger or smaller.",
             name,
+        )
+
+
+def _require_legs(axes: Mapping[str, Axis], model: RobotModel) -> None:
+    """Links are longer than the way from the motors' circle to the platform's, whatever is drawn.
+
+    Raises:
+        InputError: they are not.
+    """
+    base, platform, link = (
+        axes[key].ends if key in axes else (robot_number(model.name, key),) * 2
+        for key in (f"{ROBOT}leg.{name}" for name in ("base_radius", "platform_radius", "link_length"))
+    )
+    way = max(base[1] - platform[0], platform[1] - base[0])
+    if link[0] <= way:
+        raise InputError(
+            f"robot.leg.link_length is {link[0]:g} m at least, and a link has to bridge {way:g} m between "
+            "robot.leg.base_radius and robot.leg.platform_radius. Make links longer, or the radii alike.",
+            f"{ROBOT}leg",
         )
 
 
 def _flat(prefix: str, value: Any) -> dict[str, Any]:
     """Nested tables as dotted keys; a table of choices is a value."""
-    if not isinstance(value, Mapping) or "choices" in value:
+    if not isinstance(value, Mapping) or "choices" in value or prefix.count(".") > MOST_TABLES:
         return {prefix: value}
     return {name: one for key, part in value.items() for name, one in _flat(f"{prefix}.{key}", part).items()}
 
@@ -261,7 +297,8 @@ def _orders(axis: Axis, model: RobotModel) -> Axis:
             continue
         if sorted(order) != list(range(1, legs + 1)):
             raise InputError(
-                f"order is {','.join(map(str, order))}; it must name each foot 1 to {legs} once.", "order"
+                f"order is {shortened(','.join(map(str, order)))}; it must name each foot 1 to {legs} once.",
+                "order",
             )
         listed.append(order)
     return Axis(choices=tuple(dict.fromkeys(listed)))
@@ -285,9 +322,9 @@ def _require_fitting(axes: Mapping[str, Axis], kind: AtlasKind, model: RobotMode
     lost = axes["lost"].choices if "lost" in axes else ((),)
     for limbs in lost:
         if len(set(limbs)) != len(limbs) or not set(limbs) <= set(range(1, model.leg_count + 1)):
+            named = shortened(",".join(map(str, limbs)))
             raise InputError(
-                f"lost is {','.join(map(str, limbs))}; it must name limbs 1 to {model.leg_count}, each once.",
-                "lost",
+                f"lost is {named}; it must name limbs 1 to {model.leg_count}, each once.", "lost"
             )
     if kind is AtlasKind.FAST and any(lost):
         raise InputError(

@@ -14,6 +14,7 @@ from core.arrays import Floats, frozen_floats
 from core.data.tables import package_files
 from core.errors import InputError
 from core.robot.coupling import coupling_matrix
+from core.text.numbers import shortened
 
 
 @dataclass(frozen=True)
@@ -215,14 +216,17 @@ def load_robot(name: str) -> RobotModel:
     return robot_from_table(robot_table(name), f"{name}.toml")
 
 
+@cache
 def robot_table(name: str) -> dict[str, Any]:
-    """A robot's parameters file as it stands.
+    """A robot's parameters file as it stands; the content is shared, so nobody changes it.
 
     Raises:
         InputError: there is no robot of that name.
     """
     if name not in ROBOT_NAMES:
-        raise InputError(f"There is no robot “{name}”; choose one of {', '.join(ROBOT_NAMES)}.", "robot")
+        raise InputError(
+            f"There is no robot “{shortened(str(name))}”; choose one of {', '.join(ROBOT_NAMES)}.", "robot"
+        )
     return tomllib.loads(package_files("robot_description").joinpath(f"{name}.toml").read_text("utf-8"))
 
 

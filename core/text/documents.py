@@ -15,6 +15,10 @@ from core.errors import InputError
 from core.text.decoding import place_in, text_of, without_mark
 from core.text.numbers import MOST_DIGITS, number_fault, plain_number, shortened
 
+MOST_DEPTH = 100
+"""Objects, tables and lists within each other."""
+MOST_TOML = 1_000_000
+"""Characters of a TOML text."""
 _SUSPECT = re.compile(r"NaN|Infinity|[eE]\+?[0-9]{3}|[0-9]{300}")
 """What every JSON text has whose numbers are not all finite doubles."""
 _JSON_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|([-+.\w]+)', re.DOTALL)
@@ -29,6 +33,11 @@ _TOML_WORD = re.compile(
     re.DOTALL,
 )
 """Strings, comments, keys and brackets; what is caught is a bare value, or a name in a table's head."""
+_MOST_WAY = 2_000
+"""Characters from a number back to its key, within which a message looks for it."""
+_TOML_BETWEEN = re.compile(r"[\n,=\[\]{}#]")
+"""Ends a key."""
+_ONE_DOT = re.compile(r"(?<!\.)\.(?!\.)")
 _TOML_NUMBER = re.compile(
     r"[+-]?(?:inf|nan|0[xob][0-9A-Fa-f_]+|[0-9][0-9_]*(?:\.[0-9_]+)?(?:[eE][+-]?[0-9_]+)?)", re.ASCII
 )
@@ -50,24 +59,43 @@ def json_content(source: str | bytes, name: str) -> Any:
         InputError: it is no text in UTF-8, a number in it is not finite, or an object has a key twice.
     """
     text = without_mark(text_of(source, name) if isinstance(source, bytes) else source)
-    if _SUSPECT.search(text):
-        _require_plain(
-            (match for match in _JSON_WORD.finditer(text) if _is_json_number(match[1])), name, text
-        )
     try:
-        return json.loads(text, object_pairs_hook=_object)
+        if _SUSPECT.search(text):
+            json.loads(text, parse_int=len)  # only in JSON do the words below take a time like its length
+            words = (match for match in _JSON_WORD.finditer(text) if _is_json_number(match[1]))
+            _require_plain(words, name, text)
+        content = json.loads(text, object_pairs_hook=_object)
+        if text.count("[") + text.count("{") > MOST_DEPTH:
+            _require_shallow(content)
+        return content
     except _TwiceError as error:
         twice = str(error)
         raise InputError(
             f"{name} has the key “{shortened(twice)}” twice in one object. Keep one of them.", name
         ) from None
     except RecursionError as error:
-        raise NotJsonError(f"{name} is not JSON: it is nested too deeply.", name) from error
+        raise NotJsonError(f"{name} is not JSON that can be read: {_TOO_DEEP}", name) from error
     except json.JSONDecodeError as error:
         place = f"line {error.lineno} column {error.colno}"
         raise NotJsonError(
             f"{name} is not JSON: {error.msg}: {place}.{_json_slip(text, error)}", name
         ) from error
+
+
+_TOO_DEEP = (
+    f"it is nested too deeply. At most {MOST_DEPTH} lists, tables or objects may stand within each other."
+)
+
+
+def _require_shallow(content: Any) -> None:
+    """Raises RecursionError, as parsers do, where content is nested too deeply."""
+    level = [content]
+    for _ in range(MOST_DEPTH + 1):
+        parts = (part.values() if isinstance(part, dict) else part for part in level)
+        level = [one for part in parts for one in part if isinstance(one, dict | list)]
+        if not level:
+            return
+    raise RecursionError
 
 
 class _TwiceError(Exception):
@@ -126,7 +154,10 @@ def as_written(value: Any) -> str:
     """A value of JSON or TOML as a person wrote it."""
     if isinstance(value, date | time):
         return f"a date or time ({value.isoformat()})"
-    return shortened(json.dumps(value, ensure_ascii=False, default=str))
+    try:
+        return shortened(json.dumps(value, ensure_ascii=False, default=str))
+    except (RecursionError, ValueError):  # lists within lists without end, or a number of thousands of digits
+        return f"a {type(value).__name__} that is too long to be shown"
 
 
 def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
@@ -137,13 +168,20 @@ def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
         name: of the file, for messages.
 
     Raises:
-        InputError: it is no text in UTF-8 or no TOML, or a number in it is no plain decimal.
+        InputError: it is no text in UTF-8 or no TOML, is too long or nested too deeply, or a number in it is
+            no plain decimal.
     """
     text = without_mark(text_of(source, name) if isinstance(source, bytes) else source)
+    if len(text) > MOST_TOML:
+        raise InputError(
+            f"{name} has {len(text):,} characters; at most {MOST_TOML:,} of TOML are read. Write less.", name
+        )
     if "\n" not in text:
         text = text.replace("\r", "\n")
     try:
+        _require_short_keys(text)
         content = tomllib.loads(text)
+        _require_shallow(content)
     except tomllib.TOMLDecodeError as error:
         place = _PLACE.search(str(error))
         if place is not None and (key := _given_twice(text, str(error), int(place[1]))):
@@ -154,12 +192,19 @@ def toml_content(source: str | bytes, name: str) -> dict[str, Any]:
         hint = " It seems to be JSON." if text.lstrip().startswith("{") else slip
         raise InputError(f"{name} is no TOML file: {error}.{hint}", name) from error
     except RecursionError as error:
-        raise InputError(f"{name} is no TOML file: it is nested too deeply.", name) from error
+        raise InputError(f"{name} is no TOML file that can be read: {_TOO_DEEP}", name) from error
     except ValueError as error:
         _require_plain(_toml_numbers(text), name, text)
         raise InputError(f"{name} is no TOML file: {error}.", name) from error
     _require_plain(_toml_numbers(text), name, text)
     return content
+
+
+def _require_short_keys(text: str) -> None:
+    """Raises RecursionError for a key of too many parts, with which the parser would take hours."""
+    for part in _TOML_BETWEEN.split(text):
+        if part.count(".") > MOST_DEPTH and len(_ONE_DOT.findall(part)) > MOST_DEPTH:
+            raise RecursionError
 
 
 def _given_twice(text: str, fault: str, line: int) -> str:
@@ -206,7 +251,8 @@ def _require_plain(words: Iterator[re.Match[str]], name: str, text: str) -> None
         fault = _fault(match[1])
         if fault is not None:
             line, column = place_in(text, match.start(1))
-            keys = ["".join(found) for found in _KEY.findall(text, 0, match.start(1))]
+            start = match.start(1)
+            keys = ["".join(found) for found in _KEY.findall(text, max(start - _MOST_WAY, 0), start)]
             key = f" ({shortened(keys[-1])})" if keys else ""
             raise InputError(f"{name}, line {line}, column {column}{key}: {fault}.", f"{name}:{line}")
 

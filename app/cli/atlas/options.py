@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from app.atlas.physics_choice import physics_rule
+from app.atlas.stored_values import MOST_GAITS
 from app.cli.atlas import commands
 from app.cli.common.argument_types import add_robot, whole
 from app.cli.common.command import set_command
@@ -12,7 +13,6 @@ from app.store.named_file import file_path
 from core.atlas.space import MOST_SEED
 
 DEFAULT_COUNT = 10_000
-MOST_COUNT = 10_000_000
 ATLAS_HELP = "atlas file, or deltawalker-small: the one that comes with the program"
 MOST_WORKERS = 256
 
@@ -47,7 +47,7 @@ def atlas_command(parser: argparse.ArgumentParser) -> None:
     text = "Solve a gait again, say whether the answer differs, and write it as a gait file."
     opened = command("open", commands.run_atlas_open, text)
     opened.add_argument("atlas", type=Path, metavar="ATLAS", help=ATLAS_HELP)
-    opened.add_argument("id", type=whole(0, MOST_COUNT), metavar="ID", help="number of the gait")
+    opened.add_argument("id", type=whole(0, MOST_GAITS - 1), metavar="ID", help="number of the gait")
     opened.add_argument(
         "-o", "--output", type=file_path, default=None, metavar="GAIT.json", help="gait file to write"
     )
@@ -64,7 +64,7 @@ def _run_options(parser: argparse.ArgumentParser) -> None:
         help="what varies (default: a space of the robot)",
     )
     text = f"how many gaits the atlas is to have (default {DEFAULT_COUNT})"
-    add("--count", type=whole(1, MOST_COUNT), default=DEFAULT_COUNT, metavar="N", help=text)
+    add("--count", type=whole(1, MOST_GAITS), default=DEFAULT_COUNT, metavar="N", help=text)
     text = "of the draw: the same seed gives the same gaits (default that of the space)"
     add("--seed", type=whole(0, MOST_SEED), default=None, metavar="K", help=text)
     text = "processes on this computer (default: one for each core)"

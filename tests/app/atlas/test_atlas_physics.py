@@ -6,6 +6,7 @@ import csv
 import math
 import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -175,9 +176,12 @@ def test_another_number_of_variations_is_simulated_again_and_the_same_is_not(atl
 
 def test_an_atlas_of_another_robot_is_not_simulated(atlas: AtlasFile) -> None:
     with sqlite3.connect(atlas.path) as connection:
-        connection.execute("UPDATE about SET value = 'other' WHERE key = 'robot_hash'")
-    with pytest.raises(InputError, match="The parameters of deltawalker have changed"):
-        run_physics(atlas, physics_choice(atlas, "front"), 1)
+        connection.execute("UPDATE about SET value = ? WHERE key = 'robot_hash'", ("0" * 64,))
+    with (
+        closing(AtlasFile(atlas.path)) as other,
+        pytest.raises(InputError, match="The parameters of deltawalker have changed"),
+    ):
+        run_physics(other, physics_choice(other, "front"), 1)
 
 
 def test_time_left_counts_gaits_in_work() -> None:

@@ -74,8 +74,32 @@ def test_every_order_of_four_legs_begins_with_foot_1() -> None:
         (table(moves=3), "moves", "it must be 1, or 2"),
         (table(lost=[2]), "lost", 'Write kind = "drawn"'),
         (table(robot={"leg": {"bones": [1, 2]}}), "robot.leg.bones", "is no number of deltawalker.toml"),
-        (table(robot={"leg": {"link_length": [-0.05, 0.05]}}), "robot.leg.link_length", "larger than 0"),
+        (
+            table(robot={"leg": {"link_length": [-0.05, 0.05]}}),
+            "robot.leg.link_length",
+            "between 0.005 and 0.5",
+        ),
         (table(step_x={"choises": [0.01, 0.02]}), "step_x", "step_x has choises. Write a range of two"),
+        (
+            table(robot={"leg": {"link_length": [1e-300, 1e300]}}),
+            "robot.leg.link_length",
+            "between 0.005 and",
+        ),
+        (table(robot={"leg": {"link_length": 0.01}}), "robot.leg", "a link has to bridge 0.014 m"),
+        (table(robot={"leg": {"base_radius": [0.02, 0.07]}}), "robot.leg", "Make links longer"),
+        (table(robot={"a": {"b": {"c": {"d": {"e": {"f": 1}}}}}}), "robot.a.b.c.d.e", "is no number of"),
+        ({"vary": {"step_x": [1e-300, 1e300]}}, "step_x", "it must be 0, or at least 1e-06 in size"),
+        ({"vary": {"step_x": 1e300}}, "step_x", "must lie between -0.2 and 0.2"),
+        (table(turn=1e6), "turn", "must lie between -2.094 and 2.094"),
+        (table(turn=-1e-9), "turn", "at least 1e-06 in size"),
+        (table(height=10**400), "height", "it must be a number of m"),
+        (table(clearance=float("nan")), "clearance", "it must be a number of m"),
+        (table(moves=10**9), "moves", "it must be 1, or 2"),
+        (table(moves=10**6000), "moves", "too long to be shown"),
+        (table(margin=[0.001 + 1e-6 * k for k in range(1001)]), "margin", "has 1,001 choices; at most 1,000"),
+        (table(order=["1,2,3,4"] * 2_000_000), "order", "has 2,000,000 choices"),
+        (table(order=[list(range(1000))]), "order", "must name each foot 1 to 4 once"),
+        ({"seed": 10**30, **table()}, "seed", "a whole number from 0"),
         ({"robot": "spot", **table()}, "robot", "There is no robot “spot”"),
         ({"kind": "quick", **table()}, "kind", "it must be one of fast, drawn"),
         ({"seed": -1, **table()}, "seed", "a whole number from 0"),
@@ -96,6 +120,12 @@ def test_what_does_not_fit_is_refused_with_its_key_and_a_remedy(
         space_from_table(content, "space.toml")
     assert refusal.value.where == where
     assert words in refusal.value.sentence
+
+
+@pytest.mark.parametrize("seed", [-1, 2**31, True, "1", 0.5])
+def test_another_seed_is_looked_at_too(seed: Any) -> None:
+    with pytest.raises(InputError, match=r"seed is .*a whole number from 0"):
+        default_space("deltawalker").drawn_by(seed)
 
 
 def test_what_is_no_toml_is_refused() -> None:

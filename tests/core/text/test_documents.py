@@ -64,6 +64,9 @@ def test_a_json_number_that_is_not_finite_is_refused_by_place(number: str, words
         ('{"a": 0,4, "b": 1}', "Write decimal points, not commas"),
         ("a,b\n1,2\n", "It begins “a,b"),
         ("[" * 100_000, "nested too deeply"),
+        ('{"a":' * 200_000, "nested too deeply"),
+        ("[" * 102 + "]" * 102, "At most 100 lists, tables or objects"),
+        ('["a' + '\\"' * 50_000 + " NaN", "Unterminated string"),
         ("", "Expecting value"),
     ],
 )
@@ -187,3 +190,28 @@ def test_a_row_of_an_array_is_not_taken_for_the_head_of_a_table(rows: str, numbe
 def test_what_is_no_toml_is_refused(text: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
         toml_content(text, "mine.toml")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a = " + "[" * 5000 + "]" * 5000, "nested too deeply"),
+        ("a = " + "{b = " * 5000 + "1" + "}" * 5000, "nested too deeply"),
+        ("a = " + "[" * 101 + "]" * 101, "At most 100 lists, tables or objects"),
+        ("a." * 100_000 + "b = 1", "nested too deeply"),
+        ("[" + "a." * 100_000 + "b]\nc = 1", "nested too deeply"),
+        ("a." * 101 + "b = 1", "nested too deeply"),
+        ("a = [" + "1," * 1_000_000 + "]", "at most 1,000,000 of TOML"),
+        ("#" + '"\\' * 50_000 + "\na = nan", "nan is not a finite number"),
+    ],
+    ids=range(8),
+)
+def test_toml_that_is_too_deep_or_too_long_is_refused_at_once(text: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        toml_content(text, "mine.toml")
+
+
+def test_toml_and_json_of_some_depth_are_read() -> None:
+    assert toml_content("a = " + "[" * 90 + "]" * 90, "mine.toml")
+    assert toml_content("# " + "." * 200 + "\na" + ".a" * 90 + " = 1", "mine.toml")
+    assert json_content('{"a":' * 90 + "1" + "}" * 90, "mine.json")

@@ -12,7 +12,7 @@ from app.common.json import Json, finite
 from app.store.database import Database
 from app.store.tables.camera_setup_store import CameraSetupRow, CameraSetupStore
 from app.store.tables.table import reading
-from core.errors import DamagedRowError, NotFoundError, StateError
+from core.errors import InputError, NotFoundError, StateError
 from core.vision.setup import CameraSetup
 
 MOST_VIEWS = 500
@@ -53,7 +53,7 @@ class CameraSetupService:
                 continue
             try:
                 views.append({**self._listed(row), "deleted": is_deleted})
-            except DamagedRowError as error:
+            except InputError as error:
                 unreadable.append({"id": row.id, "name": row.id, "sentence": error.sentence})
         return views, unreadable
 

@@ -22,7 +22,7 @@ from app.simulation.view import motion_content, variations_content
 from app.store.tables.simulation_store import SimulationRow, SimulationStore
 from app.store.tables.table import reading
 from core.checks.simulation import Simulated
-from core.errors import DamagedRowError, NotFoundError
+from core.errors import InputError, NotFoundError
 from core.physics.findings import physics_outcomes
 from core.physics.masses import default_physics
 from core.physics.metrics import report
@@ -159,7 +159,7 @@ class SimulationRepository:
             if content is not None:
                 physics = sets[row.key]
                 problem = simulation_problem(plan, physics)
-                with suppress(DamagedRowError), reading():
+                with suppress(InputError), reading():
                     figures = report_from_content(content["report"])
                     return Simulated(figures, problem, simulation_key(plan, physics))
         return None

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from app.common.json import Json
+from app.store.tables.table import reading
 from app.trials.bands import band_content
 from app.trials.figures import movement_content, path_content
 from app.trials.record import ROBOT, TrialRecord
@@ -39,8 +40,9 @@ class TrialComparison:
     def figures(self, trial: str) -> Json:
         """How the trial's simulation stands, a row of figures a source, and physics' feet for a plot."""
         record = self._service.record(trial)
-        simulated, remark = self._simulated(record)
-        rows = [_row(source, record, motion) for source, motion in self.sources(record).items()]
+        with reading(f"The trial {trial} cannot be read: "):
+            simulated, remark = self._simulated(record)
+            rows = [_row(source, record, motion) for source, motion in self.sources(record).items()]
         return {
             "id": trial,
             "simulation": {**self._simulations.standing(trial), "remark": remark},

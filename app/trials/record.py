@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from app.store.tables.shapes import ShapeError
 from app.store.tables.table import reading
 from app.store.tables.trial_store import TrialRow
 from app.trials.planned import PlannedFeet
@@ -104,7 +105,7 @@ class TrialRecord:
 
 def told_ends(content: Mapping[str, Any]) -> tuple[tuple[int, ...] | None, str]:
     """Last frame of each iteration as a hand or the run's log tells, and who does; None for the "tracks"."""
-    if content["ends"] is not None:
+    if content.get("ends") is not None:
         return tuple(content["ends"]), "hand"
     ends = (content.get("sight") or {}).get("run_ends")
     if ends is not None and len(ends) == content["iterations"]:
@@ -117,7 +118,12 @@ def kept_track(row: TrialRow) -> FootTrack:
     content = row.content
     track = parse_track_csv(row.track, content["name"], frame_rate=content["frame_rate"])
     track_record = content.get("sight")
-    return track if track_record is None else replace(track, times=np.array(track_record["times"]))
+    if track_record is None:
+        return track
+    times = np.array(track_record["times"])
+    if times.shape != track.times.shape:
+        raise ShapeError("content.sight.times", f"has {times.size} times of {track.times.size} frames")
+    return replace(track, times=times)
 
 
 def trial_record(row: TrialRow) -> TrialRecord:
@@ -132,9 +138,14 @@ def trial_record(row: TrialRow) -> TrialRecord:
 
 def _trial_record(row: TrialRow) -> TrialRecord:
     content, track = row.content, kept_track(row)
-    plan = content["plan"]
+    plan = content.get("plan")
     planned = None
     if plan is not None:
         times, feet = np.array(plan["times"]), np.array(plan["feet"])
-        planned = PlannedFeet(times, feet, plan.get("laps", 1), lap_seconds=plan.get("lap_seconds"))
-    return TrialRecord(content, track, planned)
+        if times.size < 2 or feet.shape != (times.size, *track.feet.shape[1:]):
+            raise ShapeError("content.plan", "has too few times, or other feet than the track")
+        planned = PlannedFeet(times, feet, plan.get("laps") or 1, lap_seconds=plan.get("lap_seconds"))
+    record = TrialRecord(content, track, planned)
+    if not all(0 < end < track.times.size for end in record.ends):
+        raise ShapeError("content.ends", "lie outside the track")
+    return record

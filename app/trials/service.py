@@ -137,13 +137,14 @@ class TrialService:
     def paths(self, trial: str) -> Json:
         """The feet's ways, tracked and planned, for a plot; cm in the track's frame."""
         row = self._known(trial)
-        track, plan = kept_track(row), row.content["plan"]
-        content: Json = {"id": trial, "track": path_content(track, MOST_PLACES), "plan": None}
-        if plan is not None:
-            times, feet = _plan_arrays(plan)
-            placed = placed_motion(times, feet, align(track, feet[0]))
-            content["plan"] = path_content(placed, MOST_PLACES)
-        return content
+        with reading(f"The trial {trial} cannot be read: "):
+            track, plan = kept_track(row), row.content.get("plan")
+            content: Json = {"id": trial, "track": path_content(track, MOST_PLACES), "plan": None}
+            if plan is not None:
+                times, feet = _plan_arrays(plan)
+                placed = placed_motion(times, feet, align(track, feet[0]))
+                content["plan"] = path_content(placed, MOST_PLACES)
+            return content
 
     def change(self, trial: str, revision: int, changes: Json) -> Json:
         """Changes name, note, wanted distance, iterations or their ends.
@@ -275,13 +276,13 @@ def _summary_of(row: TrialRow) -> Json:
         "revision": revision_of(content),
         "frame_rate": content["frame_rate"],
         "deleted": row.is_deleted,
-        "ends_by_hand": content["ends"] is not None,
+        "ends_by_hand": content.get("ends") is not None,
         "ends_from": ends_from,
         **_record_content(content.get("sight")),
         **track_content(track, expected, found, ends, length),
         "plan": None,
     }
-    if content["plan"] is not None:
+    if content.get("plan") is not None:
         times, feet = _plan_arrays(content["plan"])
         plan = plan_content(times, feet, align(track, feet[0]), expected)
         astray = astray_content(summary["figures"], plan["figures"])

@@ -9,7 +9,7 @@ from app.common.json import Json
 from app.store.database import Database
 from app.store.row_damage import RowDamage
 from app.store.tables.shapes import Shape, ShapeError
-from core.errors import DamagedRowError, FootfallError, StorageDamagedError
+from core.errors import DamagedRowError, InputError
 
 Row = TypeVar("Row")
 View = TypeVar("View")
@@ -111,8 +111,8 @@ class Table(Generic[Row]):
             try:
                 with reading():
                     views.append(view(kind.value(columns)))
-            except DamagedRowError as error:
-                damaged.append(self._damage(number, columns, error.sentence))
+            except InputError as error:
+                damaged.append(self._damage(number, columns, error.sentence.rstrip(".")))
         return Selection(tuple(views), tuple(damaged))
 
     def first(self, rest: str, *values: Any) -> Row | None:
@@ -149,7 +149,7 @@ class Table(Generic[Row]):
 
 @contextmanager
 def reading(what: str = "") -> Iterator[None]:
-    """Makes a damage of what stored content lacks for the code that reads it.
+    """Makes a damage of what stored content lacks for the code that reads it; refusals stay what they are.
 
     Args:
         what: is read, as the beginning of a sentence; nothing where the reason alone is wanted.
@@ -159,12 +159,6 @@ def reading(what: str = "") -> Iterator[None]:
     """
     try:
         yield
-    except DamagedRowError:
-        raise
-    except FootfallError as error:
-        if isinstance(error, StorageDamagedError):
-            raise
-        raise DamagedRowError(f"{what}{error.sentence.rstrip('.')}", error.where) from error
     except ShapeError as error:
         raise DamagedRowError(f"{what}{error}", error.place) from error
     except KeyError as error:

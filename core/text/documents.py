@@ -17,6 +17,8 @@ from core.text.numbers import MOST_DIGITS, number_fault, plain_number, shortened
 
 _SUSPECT = re.compile(r"NaN|Infinity|[eE]\+?[0-9]{3}|[0-9]{300}")
 """What every JSON text has whose numbers are not all finite doubles."""
+_PIECE, _OVERLAP = 65_536, 300
+"""A text is searched in pieces, between which other threads have their turn: no Stop waits for a long one."""
 _JSON_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|([-+.\w]+)', re.DOTALL)
 _NUMBER_LIKE = re.compile(r"[-+]?\.?[0-9][\w.+-]*", re.ASCII)
 _IN_NUMBERS = "+-.0123456789eE"
@@ -50,7 +52,7 @@ def json_content(source: str | bytes, name: str) -> Any:
         InputError: it is no text in UTF-8, a number in it is not finite, or an object has a key twice.
     """
     text = without_mark(text_of(source, name) if isinstance(source, bytes) else source)
-    if _SUSPECT.search(text):
+    if _is_suspect(text):
         _require_plain(
             (match for match in _JSON_WORD.finditer(text) if _is_json_number(match[1])), name, text
         )
@@ -68,6 +70,11 @@ def json_content(source: str | bytes, name: str) -> Any:
         raise NotJsonError(
             f"{name} is not JSON: {error.msg}: {place}.{_json_slip(text, error)}", name
         ) from error
+
+
+def _is_suspect(text: str) -> bool:
+    begins = range(0, len(text), _PIECE)
+    return any(_SUSPECT.search(text, begin, begin + _PIECE + _OVERLAP) for begin in begins)
 
 
 class _TwiceError(Exception):

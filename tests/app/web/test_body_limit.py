@@ -115,7 +115,8 @@ def test_large_bodies_are_worked_at_one_at_a_time_with_a_rest_between(
     async def crowd() -> list[BaseException | None]:
         limit = BodyLimit(work)
         large = [asyncio.ensure_future(ask(limit, path, 11)) for path in ("/fails", "/b", "/c")]
-        await asyncio.sleep(0)
+        while not begun:
+            await asyncio.sleep(0)
         await ask(limit, "/small", 10)
         return await asyncio.gather(*large, return_exceptions=True)
 

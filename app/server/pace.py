@@ -6,6 +6,7 @@ from collections import deque
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.server.admission import STOP
+from app.server.protocols import CONNECTION
 
 
 class Pace:
@@ -21,10 +22,17 @@ class Pace:
         self._has_begun = False
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Passes a request on when its turn has come."""
-        if (scope.get("method"), scope.get("path")) != STOP:
-            await self._turn()
-        await self._app(scope, receive, send)
+        """Passes a request on when its turn has come; the end of the studio cuts it off."""
+        try:
+            if (scope.get("method"), scope.get("path")) != STOP:
+                await self._turn()
+            await self._app(scope, receive, send)
+        except asyncio.CancelledError:
+            # The server cancels what is not answered in time when it ends: that is no error for the log.
+            connection = scope.get("state", {}).get(CONNECTION)
+            if connection is None:
+                raise
+            connection.holder.drop()
 
     async def _turn(self) -> None:
         loop = asyncio.get_running_loop()

@@ -34,7 +34,14 @@ from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, So
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
 from solver_jobs.workers.atlas_physics_service import PhysicsRun, PhysicsWorker
-from solver_jobs.workers.atlas_service import Chunk, ChunkRun, ChunkWorker, EvaluatedGaits, evaluated_chunk
+from solver_jobs.workers.atlas_service import (
+    RUN_AGAIN,
+    Chunk,
+    ChunkRun,
+    ChunkWorker,
+    EvaluatedGaits,
+    evaluated_chunk,
+)
 from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
 from solver_jobs.workers.fastest_search import FastestSearch, SearchStep, TriedGait, fastest_of
 from solver_jobs.workers.job import OPEN_STATES, Job, JobKind, JobState, result_sentence
@@ -48,12 +55,13 @@ from solver_jobs.workers.simulation_worker import Simulated
 from solver_jobs.workers.spawning import NICENESS
 from solver_jobs.workers.task_service import Task, TaskService
 from solver_jobs.workers.task_worker import Report, run_tasks
-from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess
+from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess, hung_sentence
 
 __all__ = [
     "MOST_REMEDIES",
     "NICENESS",
     "OPEN_STATES",
+    "RUN_AGAIN",
     "BatchSimulation",
     "BatchSimulator",
     "Chunk",
@@ -106,6 +114,7 @@ __all__ = [
     "fastest_of",
     "fastest_timing",
     "find_remedies",
+    "hung_sentence",
     "nothing_words",
     "rank",
     "result_sentence",

@@ -1,6 +1,7 @@
 """Chunks on a Dask cluster: the same work, file and hash as on this machine alone."""
 
 import logging
+import time
 from collections.abc import Callable, Generator
 from contextlib import ExitStack
 from typing import Any
@@ -9,7 +10,8 @@ from app.atlas.run import DoneChunk
 from app.common.version import VERSION
 from core.atlas.space import AtlasSpace
 from core.errors import InputError, StateError
-from solver_jobs import Chunk, evaluated_chunk
+from core.running_time import Deadline
+from solver_jobs import RUN_AGAIN, Chunk, evaluated_chunk, hung_sentence
 
 LOCAL = "local"
 CONNECT_SECONDS = 15
@@ -20,6 +22,8 @@ WAIT_SECONDS = 0.2
 """Between looks for a wish to end."""
 GONE_SECONDS = 30.0
 """A cluster without a worker for so long counts as gone."""
+SILENCE_SECONDS = 1800.0
+"""Workers of which none is done with a chunk for so long hang; a chunk takes a minute or two."""
 TRIES = 4
 """Workers that may die with a chunk before the run ends."""
 
@@ -70,6 +74,7 @@ class DaskEngine:
             content = space.content()
             waiting = chunks[::-1]
             running: dict[Any, Chunk] = {}
+            silence = Deadline(SILENCE_SECONDS, time.monotonic)
             while (waiting or running) and go_on():
                 while waiting and len(running) < AHEAD * max(self._count(client), 1):
                     chunk = waiting.pop()
@@ -84,6 +89,12 @@ class DaskEngine:
                 except self._dask.TimeoutError:
                     done = ()
                 self._require_alive(client)
+                if done:
+                    silence = Deadline(SILENCE_SECONDS, time.monotonic)
+                elif silence.is_over:
+                    raise StateError(
+                        hung_sentence(f"cluster at {self._address}", SILENCE_SECONDS, RUN_AGAIN), "--dask"
+                    )
                 for future in done:
                     chunk = running.pop(future)
                     if future.status in ("cancelled", "lost"):

@@ -24,6 +24,10 @@ IDLE_SECONDS = 15.0
 """A camera that nobody has looked at for so long is left to others."""
 
 
+SILENCE_SECONDS = 60.0
+"""A process that answers nothing for so long while somebody waits hangs, and is ended."""
+
+
 class CameraError(RobotError):
     """A camera gives no pictures."""
 
@@ -136,8 +140,15 @@ class CameraProcess:
     def _run(self) -> None:
         reason: object = "it was closed"
         try:
+            heard = self._running()
             while not self._closing.is_set() and not self._is_idle():
                 message = self._worker.receive(POLL_SECONDS)
+                if isinstance(message, Standing | Shown | Finished) or not self._waiting:
+                    heard = self._running()
+                elif self._running() - heard > SILENCE_SECONDS:
+                    reason = f"it gave no sign of life for {SILENCE_SECONDS:.0f} s"
+                    _log.warning("The process of the camera %s was ended: %s.", self.address.id, reason)
+                    break
                 if isinstance(message, Standing):
                     self.standing = message
                     self._changed()

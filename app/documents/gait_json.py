@@ -33,6 +33,7 @@ from core.motion.contact_timeline import ContactTimeline, bits_from_rows, rows_f
 from core.robot.model import RobotModel, load_robot
 from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary, require_heights
 from core.text.documents import json_content
+from core.text.json_size import require_few_values
 
 FORMAT = "footfall-gait"
 MOST_BYTES = 2_000_000
@@ -54,6 +55,7 @@ def parse_gait(text: str | bytes, where: str = "gait") -> Gait:
     Raises:
         InputError: naming the field, what is wrong and what would be right.
     """
+    require_few_values(text, where)
     return gait_from_content(json_content(text, where), where)
 
 

@@ -8,6 +8,7 @@ from app.documents.gait_json import gait_from_content
 from core.gait.gait import Gait
 from core.gait.options import OPTION_BOUNDS, sayable
 from core.text.documents import json_content
+from core.text.json_size import require_few_values
 
 _KNOTS = ("phase_knots", "closing_knots")
 """Options without bounds in earlier versions; nothing but a timeline that is drawn anew depends on them."""
@@ -32,6 +33,7 @@ def stored_gait(text: str | bytes, where: str = "gait") -> StoredGait:
     Raises:
         InputError: it cannot be read.
     """
+    require_few_values(text, where)
     return stored_content(json_content(text, where), where)
 
 

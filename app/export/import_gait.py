@@ -14,6 +14,7 @@ from core.recorded.recorded_motion import fit_words, recorded_motion
 from core.robot.model import load_robot
 from core.text.decoding import MARK, without_mark
 from core.text.documents import json_content
+from core.text.json_size import require_few_values
 from core.wire.waypoints import is_waypoint_text
 
 NAMELESS = "Imported gait"
@@ -106,6 +107,7 @@ def _name_of(file: str) -> str:
 
 
 def _from_json(text: str, where: str, name: str | None, sample_time: float | None) -> DescribedGait:
+    require_few_values(text, where)
     content: Json = json_content(text, where)
     kind = content.get("format")
     if kind == PHASES_FORMAT:

@@ -30,7 +30,8 @@ async def events(socket: WebSocket) -> None:
     subscriber = studio.hub.subscribe(page if is_page(page) else "")
     listening = asyncio.create_task(_drain(socket, studio, subscriber.page))
     try:
-        await socket.send_text(json.dumps(await on_command_thread(studio, studio.hello), allow_nan=False))
+        hello = await on_command_thread(studio, lambda: json.dumps(studio.hello(), allow_nan=False))
+        await socket.send_text(hello)
         studio.commands.tell(lambda: studio.page_came_or_went(subscriber.page))
         while (event := await _next_or_gone(subscriber, listening)) is not None:
             await socket.send_text(event)

@@ -30,6 +30,7 @@ from app.routes.robot import jog, motor_test, robot, runs
 from app.routes.viser_proxy import make_viser_router
 from app.scene.registry import Scenes
 from app.server.admission import Admission
+from app.server.pace import Pace
 from app.studio.studio import Studio
 from app.web.access import Access, Guard
 from app.web.api_page import add_api_page
@@ -88,6 +89,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         middleware=[
+            Middleware(Pace),
             Middleware(Guard, access=access),
             Middleware(Admission),
             Middleware(HeadRequests),

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from dataclasses import dataclass
-from enum import StrEnum
+from enum import IntEnum, StrEnum
 from typing import Protocol
 
 MOST_OF_PEER = 32
@@ -30,6 +30,16 @@ class Trouble(StrEnum):
     UNREAD = "An answer was not read: the connection was closed."
     FULL = "Too many connections are open: a request was refused."
     DESCRIPTORS = "The system allows the studio no more open files: a connection had to wait or was closed."
+
+
+class Rank(IntEnum):
+    """Which connections make room for which others, the lowest first."""
+
+    STRANGER = 0
+    TOKEN = 1
+    """The first head holds the token, where one is demanded."""
+    STOP = 2
+    """It stops the robot, and holds the token too."""
 
 
 @dataclass(frozen=True)
@@ -84,6 +94,7 @@ class Connection:
         is_known: whether a request was accepted on it.
         is_socket: whether it became a web socket.
         is_asking: whether a request is being answered on it.
+        rank: by its first head.
         deadline: when it is closed, on the event loop's clock, s; None where it may take its time.
         waits_for: the trouble at the deadline; None where the peer has not begun a request.
         unsent: bytes that waited for the peer when last looked at.
@@ -94,6 +105,7 @@ class Connection:
         self._register = register
         self.peer, self.holder = peer, holder
         self.is_known = self.is_socket = self.is_asking = False
+        self.rank = Rank.STRANGER
         self.deadline: float | None = None
         self.waits_for: Trouble | None = None
         self.unsent = 0
@@ -209,9 +221,8 @@ class Connections:
                 del self._crowds[connection.peer]
 
     def _close_one(self, crowd: _Crowd) -> None:
-        """Closes the oldest that waits for its peer, or the oldest of all where each is being answered."""
-        oldest = next(iter(crowd))
-        self._close(next((one for one in crowd if not one.is_asking), oldest))
+        """Closes the oldest that waits for its peer, else the oldest of the lowest rank."""
+        self._close(min(crowd, key=lambda one: (one.is_asking, one.rank)))
         self.troubles[Trouble.CROWD] += 1
 
     def _close_resting(self) -> bool:

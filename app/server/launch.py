@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import errno
+import gc
 import os
 import secrets
 import socket
@@ -35,6 +36,10 @@ from core.errors import InputError
 GRACE_SECONDS = 3
 """Open connections get this long when the studio ends."""
 
+SWITCH_SECONDS = 0.0005
+"""Longest that a thread which computes keeps the others waiting; Python's own 5 ms come before each step of a
+Stop."""
+
 
 @dataclass(frozen=True)
 class ServeOptions:
@@ -61,6 +66,7 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
         InputError: the port is busy, or the data folder cannot be used or is another studio's.
     """
     give_back_freed_memory()
+    sys.setswitchinterval(SWITCH_SECONDS)
     token = options.token
     if token == "" or (token is None and options.host not in LOOPBACK_NAMES):
         token = secrets.token_urlsafe(18)
@@ -91,6 +97,7 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
             server = BoundedServer(
                 config, limits, token, lambda: _tell(url, who, announce, options.opens_browser)
             )
+            gc.freeze()  # whatever is there now stays: a full collection would look at it for 50 ms and more
             asyncio.run(serve_until_signal(server, listening, studio))
         finally:
             studio.close()

@@ -10,7 +10,8 @@ from collections import deque
 from collections.abc import Callable
 from urllib.parse import quote
 
-from app.server.connections import Connection, Connections, Trouble
+from app.server.admission import STOP
+from app.server.connections import Connection, Connections, Rank, Trouble
 from app.server.descriptors import Spares
 from app.server.newcomers import Newcomer, is_whole, received, shows_one
 from app.server.protocols import HEAD_SECONDS, BoundedHttp
@@ -43,6 +44,9 @@ REST_SECONDS = 0.05
 
 IPV6_NETWORK = 64
 """Bits of an IPv6 address that one peer has in common."""
+
+STOP_LINE = " ".join(STOP).encode()
+"""Beginning of the head of a Stop."""
 
 _SHORT = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 
@@ -127,6 +131,7 @@ class Listener:
         if not is_whole(newcomer.head):
             return True
         if self._goes_first(newcomer.head):
+            newcomer.connection.rank = Rank.STOP if newcomer.head.startswith(STOP_LINE) else Rank.TOKEN
             self._hand_over(newcomer)
             return False
         self._waiting.append(newcomer)

@@ -111,8 +111,10 @@ class BoundedHttp(H11Protocol):
         self._connection.ended()
 
     def drop(self) -> None:
-        """Closes the line at once."""
+        """Closes the line at once; nobody waits for the rest of an answer."""
         self._is_dropped = True
+        if self.cycle is not None:
+            self.cycle.disconnected = True
         if self.transport is not None:
             self.transport.abort()
 

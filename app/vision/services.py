@@ -35,8 +35,8 @@ class VisionTask(Task[VisionRequest, float, Any]):
         self._done, self._failed = done, failed
 
     def unanswered(self, seconds: float) -> Any:
-        """Nothing comes of a look that was ended."""
-        raise StateError("It was cancelled." if self.is_ending else "The pictures could not be read in time.")
+        """Nothing comes of a look that was cancelled."""
+        raise StateError("It was cancelled.")
 
     def answer(self, result: Any) -> None:
         """Ends the wait; where what is to be done with the answer fails, the service says so by `fail`."""

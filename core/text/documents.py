@@ -21,6 +21,8 @@ MOST_TOML = 1_000_000
 """Characters of a TOML text."""
 _SUSPECT = re.compile(r"NaN|Infinity|[eE]\+?[0-9]{3}|[0-9]{300}")
 """What every JSON text has whose numbers are not all finite doubles."""
+_PIECE, _OVERLAP = 65_536, 300
+"""A text is searched in pieces, between which other threads have their turn: no Stop waits for a long one."""
 _JSON_WORD = re.compile(r'"(?:[^"\\]|\\.)*"|([-+.\w]+)', re.DOTALL)
 _NUMBER_LIKE = re.compile(r"[-+]?\.?[0-9][\w.+-]*", re.ASCII)
 _IN_NUMBERS = "+-.0123456789eE"
@@ -60,7 +62,7 @@ def json_content(source: str | bytes, name: str) -> Any:
     """
     text = without_mark(text_of(source, name) if isinstance(source, bytes) else source)
     try:
-        if _SUSPECT.search(text):
+        if _is_suspect(text):
             json.loads(text, parse_int=len)  # only in JSON do the words below take a time like its length
             words = (match for match in _JSON_WORD.finditer(text) if _is_json_number(match[1]))
             _require_plain(words, name, text)
@@ -96,6 +98,11 @@ def _require_shallow(content: Any) -> None:
         if not level:
             return
     raise RecursionError
+
+
+def _is_suspect(text: str) -> bool:
+    begins = range(0, len(text), _PIECE)
+    return any(_SUSPECT.search(text, begin, begin + _PIECE + _OVERLAP) for begin in begins)
 
 
 class _TwiceError(Exception):

@@ -3,6 +3,7 @@
 import hashlib
 import re
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -52,7 +53,7 @@ class Waypoints:
         rows = self.strokes.reshape(self.count, -1) * 1000.0
         return np.round(rows, MM_DECIMALS)
 
-    @property
+    @cached_property
     def content_hash(self) -> str:
         """SHA-256 of the waypoint file's text: what is approved is exactly what is sent."""
         return hashlib.sha256(format_waypoint_csv(self).encode()).hexdigest()

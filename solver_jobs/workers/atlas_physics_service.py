@@ -3,12 +3,13 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from typing import ClassVar
 
 from core.atlas.physics_row import PhysicsRow
 from core.atlas.row import AtlasRow
 from core.atlas.space import AtlasSpace, space_from_table
 from core.errors import StateError
-from solver_jobs.workers.atlas_service import IDLE_SILENCE_SECONDS
+from solver_jobs.workers.atlas_service import RUN_AGAIN
 from solver_jobs.workers.spawning import BACKGROUND_NICENESS
 from solver_jobs.workers.task_service import Task, TaskService
 from solver_jobs.workers.task_worker import Report, run_tasks
@@ -32,19 +33,15 @@ class PhysicsTask:
 class PhysicsRun(Task[PhysicsTask, float, PhysicsRow]):
     """One gait that is being simulated."""
 
-    def latest(self, begun: float, heard: float) -> float:
-        """An idle worker may wait long for a free core."""
-        return heard + IDLE_SILENCE_SECONDS
+    remedy: ClassVar[str] = RUN_AGAIN
 
     def unanswered(self, seconds: float) -> PhysicsRow:
         """Nothing comes of a simulation that did not end.
 
         Raises:
-            StateError: it was cancelled, or its process told nothing for too long.
+            StateError: always.
         """
-        if self.is_ending:
-            raise StateError("The run was ended.")
-        raise StateError("A simulator of the atlas did not respond and was ended. Run again to go on.")
+        raise StateError("The run was ended.")
 
 
 class PhysicsWorker(TaskService[PhysicsRun]):

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from typing import ClassVar
 
 from core.atlas.point import AtlasPoint
 from core.atlas.row import AtlasRow
@@ -34,8 +35,7 @@ class ChunkTask:
     chunk: Chunk
 
 
-IDLE_SILENCE_SECONDS = 3600.0
-"""A worker that tells nothing for so long is stuck; its steps are limited in number, not in time."""
+RUN_AGAIN = "What was computed is kept; run again to go on."
 EvaluatedGaits = list[tuple[AtlasPoint, AtlasRow]]
 """Gaits in the order of their numbers, each with what came of it."""
 
@@ -43,19 +43,15 @@ EvaluatedGaits = list[tuple[AtlasPoint, AtlasRow]]
 class ChunkRun(Task[ChunkTask, float, EvaluatedGaits]):
     """One chunk that is being evaluated."""
 
-    def latest(self, begun: float, heard: float) -> float:
-        """An idle worker may wait long for a free core."""
-        return heard + IDLE_SILENCE_SECONDS
+    remedy: ClassVar[str] = RUN_AGAIN
 
     def unanswered(self, seconds: float) -> EvaluatedGaits:
         """Nothing comes of a chunk that did not end.
 
         Raises:
-            StateError: it was cancelled, or its process told nothing for too long.
+            StateError: always.
         """
-        if self.is_ending:
-            raise StateError("The run was ended.")
-        raise StateError("A worker of the atlas did not respond and was ended. Run again to go on.")
+        raise StateError("The run was ended.")
 
 
 class ChunkWorker(TaskService[ChunkRun]):

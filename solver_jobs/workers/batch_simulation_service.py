@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from core.errors import SimulationCancelledError, StateError
+from core.errors import SimulationCancelledError
 from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet
 from core.trials.displacement import Displacement
@@ -18,12 +18,9 @@ class BatchSimulation(Task[BatchTask, float, tuple[Displacement | None, ...]]):
         """Nothing comes of it.
 
         Raises:
-            SimulationCancelledError: it was cancelled.
-            StateError: its process told nothing for too long.
+            SimulationCancelledError: always.
         """
-        if self.is_ending:
-            raise SimulationCancelledError("Learning was cancelled.")
-        raise StateError("The simulator of gaits did not respond and was ended. Try again.")
+        raise SimulationCancelledError("Learning was cancelled.")
 
 
 class BatchSimulator(TaskService[BatchSimulation]):

@@ -2,7 +2,6 @@
 
 import logging
 import threading
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Protocol
@@ -12,10 +11,13 @@ from solver_jobs.nlp.timing import TimingResult
 from solver_jobs.results.motion import Iterate, MotionResult
 from solver_jobs.workers.job import STATE_OF_STATUS, Job, JobState, result_sentence
 from solver_jobs.workers.nlp_worker import Broke, Finished, Progressed, Stop, Work
-from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess
+from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess, hung_sentence
 
 GRACE_SECONDS = 1.0
 """How long a worker may take to stop when asked; then it is ended."""
+
+SILENCE_SECONDS = 20.0
+"""A solver hung if it has told nothing for so long at the time limit; an iteration takes far less."""
 
 PUBLISH_SECONDS = 0.05
 """Progress is published no more often; the course itself is kept whole."""
@@ -48,9 +50,9 @@ class _RunningJob:
     """State of the job that the thread runs."""
 
     job: str
-    clock: RunningClock = field(default_factory=lambda: RunningClock(time.monotonic))
+    clock: RunningClock
     iterates: list[Iterate] = field(default_factory=list)
-    heard: bool = False
+    heard: float | None = None
     published: float = 0.0
     stop_sent: float | None = None
     timed_out: bool = False
@@ -100,12 +102,12 @@ class JobThread:
             _log.exception("The solver's process does not start")
 
     def _attend(self, job: Job) -> None:
-        running = _RunningJob(job.id)
+        running = _RunningJob(job.id, RunningClock(self.worker.clock))
         try:
             try:
                 self._serve(job, running)
             except WorkerEndedError:
-                if running.heard or self._source.closing:
+                if running.heard is not None or self._source.closing:
                     raise
                 # The process had ended while it stood by; the job deserves a living one.
                 self._serve(job, running)
@@ -118,6 +120,7 @@ class JobThread:
             self._start_worker()
         except Exception as error:
             _log.exception("Job %s failed in its service", job.id)
+            self.worker.kill()  # it may still be at this job
             self._end(running, JobState.FAILED, f"The job could not be run: {error}.")
 
     def _serve(self, job: Job, running: _RunningJob) -> None:
@@ -129,7 +132,10 @@ class JobThread:
     def _advance(self, running: _RunningJob) -> bool:
         """Handles the next message or limit; true when the job has ended."""
         message = self.worker.receive(POLL_SECONDS)
-        running.heard = running.heard or message is not None
+        running.clock.look()
+        now = running.clock()
+        if isinstance(message, Progressed | Finished | Broke) and message.job == running.job:
+            running.heard = now
         if isinstance(message, Progressed) and message.job == running.job:
             running.iterates.append(message.iterate)
         elif isinstance(message, Finished) and message.job == running.job:
@@ -139,8 +145,6 @@ class JobThread:
             _log.error("Job %s: %s", running.job, message.details)
             self._end(running, JobState.FAILED, f"The solver broke off ({message.error}); this is a bug.")
             return True
-        running.clock.look()
-        now = running.clock()
         if now - running.published >= PUBLISH_SECONDS:
             self._publish(running, now)
         return self._stop_where_due(running, now)
@@ -160,7 +164,12 @@ class JobThread:
         if now - running.stop_sent < GRACE_SECONDS:
             return False
         self.worker.kill()
-        self._end(running, *self._stopped(running))
+        silent = now - (running.heard or 0.0)
+        if running.timed_out and silent >= SILENCE_SECONDS:
+            again = "A new one starts; optimise again."
+            self._end(running, JobState.FAILED, hung_sentence("solver", silent, again))
+        else:
+            self._end(running, *self._stopped(running))
         self._start_worker()
         return True
 

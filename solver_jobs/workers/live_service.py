@@ -8,8 +8,6 @@ from collections.abc import Callable
 from concurrent.futures import CancelledError, Future, InvalidStateError
 from concurrent.futures import TimeoutError as FutureTimeout
 from contextlib import suppress
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from typing import Any
 
 from core.gait.gait import Gait
@@ -29,8 +27,7 @@ from solver_jobs.workers.live_worker import (
     SolveLive,
     run_live_worker,
 )
-from solver_jobs.workers.spawning import start_process
-from solver_jobs.workers.worker_process import JOIN_SECONDS
+from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess
 
 _log = logging.getLogger(__name__)
 
@@ -64,15 +61,14 @@ class LiveSolver:
         self._lock = threading.Lock()
         self._waiting: dict[int, Future[Any]] = {}
         self._told: dict[int, Callable[[Remedy], object]] = {}
-        self._process: BaseProcess | None = None
-        self._pipe: Connection | None = None
+        self._worker: WorkerProcess | None = None
         self._closed = False
 
     @property
     def process_id(self) -> int | None:
         """The process's number, or None where none runs."""
-        process = self._process
-        return process.pid if process is not None and process.is_alive() else None
+        worker = self._worker
+        return None if worker is None else worker.process_id
 
     def start(self) -> None:
         """Starts the process ahead of questions."""
@@ -189,15 +185,15 @@ class LiveSolver:
         future: Future[Any] = Future()
         try:
             with self._lock:
-                pipe = self._ensure_started()
+                worker = self._ensure_started()
                 self._waiting[number] = future
-                self._send(pipe, message(number))
+                worker.send(message(number))
             deadline = Deadline(timeout, time.monotonic)
             while not deadline.is_over:
                 if go_on is not None and not go_on():
                     deadline, go_on = Deadline(END_SECONDS, time.monotonic), None
-                    with self._lock:
-                        self._send(pipe, EndSearch(number))
+                    with suppress(WorkerEndedError):  # then nobody waits any more
+                        worker.send(EndSearch(number))
                 with suppress(FutureTimeout):
                     return future.result(min(POLL_SECONDS, timeout))
             raise FutureTimeout
@@ -210,50 +206,43 @@ class LiveSolver:
             self._waiting.pop(number, None)
             self._told.pop(number, None)
 
-    def _send(self, pipe: Connection, message: Question | EndSearch) -> None:
-        """Sends a message; the lock is held."""
-        try:
-            pipe.send(message)
-        except OSError:
-            # A process that was killed seems to live for a moment after its pipe broke.
-            self._end()
-            raise
-
-    def _ensure_started(self) -> Connection:
-        """The open pipe of a living process; the lock is held."""
+    def _ensure_started(self) -> WorkerProcess:
+        """A living process; the lock is held."""
         if self._closed:
             raise CancelledError("the studio is closing")
-        if self._pipe is not None and self.process_id is not None:
-            return self._pipe
+        if self._worker is not None and self._worker.process_id is not None:
+            return self._worker
         self._end()
-        self._process, ours = start_process(run_live_worker, self._warm_up, "footfall-live")
-        self._pipe = ours
-        threading.Thread(target=self._receive, args=(ours,), name="live-answers", daemon=True).start()
-        return ours
+        worker = WorkerProcess(self._warm_up, run_live_worker, "footfall-live")
+        worker.ensure_started()
+        self._worker = worker
+        threading.Thread(target=self._receive, args=(worker,), name="live-answers", daemon=True).start()
+        return worker
 
-    def _receive(self, pipe: Connection) -> None:
+    def _receive(self, worker: WorkerProcess) -> None:
         """Hands answers to whoever waits, as long as the process lives."""
         try:
             while True:
-                answer: Answered | Found = pipe.recv()
+                answer = worker.receive()
                 if isinstance(answer, Found):
                     self._told.get(answer.number, _nobody)(answer.remedy)
-                    continue
-                future = self._waiting.get(answer.number)
-                if future is None or future.done():
-                    continue
-                try:
-                    if answer.error:
-                        future.set_exception(LiveSolverError(answer.error))
-                    else:
-                        future.set_result(answer.value)
-                except InvalidStateError:
-                    # Whoever asked has just given up waiting.
-                    continue
-        except (EOFError, OSError):
+                elif isinstance(answer, Answered):
+                    self._take(answer)
+        except WorkerEndedError as ended:
+            _log.debug("The live solver's process ended (%s).", ended)
             with self._lock:
-                if self._pipe is pipe:
+                if self._worker is worker:
                     self._end()
+
+    def _take(self, answer: Answered) -> None:
+        future = self._waiting.get(answer.number)
+        if future is None or future.done():
+            return
+        with suppress(InvalidStateError):  # whoever asked has just given up waiting
+            if answer.error:
+                future.set_exception(LiveSolverError(answer.error))
+            else:
+                future.set_result(answer.value)
 
     def _give_up(self) -> None:
         for future in list(self._waiting.values()):
@@ -261,13 +250,9 @@ class LiveSolver:
 
     def _end(self) -> None:
         """Ends the process and whoever waits for it; the lock is held."""
-        process, pipe = self._process, self._pipe
-        self._process = self._pipe = None
-        if process is not None:
-            process.kill()
-            process.join(JOIN_SECONDS)
-        if pipe is not None:
-            pipe.close()
+        worker, self._worker = self._worker, None
+        if worker is not None:
+            worker.kill()
         self._give_up()
 
 

@@ -47,6 +47,16 @@ class PatternSearch(Task[Find, PatternProgress, PatternResult]):
             result = PatternResult(PatternStatus.CANCELLED, (), result.bound, result.solve_seconds)
         super().answer(result)
 
+    def hung(self, sentence: str, seconds: float) -> PatternResult:
+        """The best pattern that was known.
+
+        Raises:
+            StateError: none was.
+        """
+        if self._known is None or self._known.pattern is None:
+            return super().hung(sentence, seconds)
+        return self.unanswered(seconds)
+
     def unanswered(self, seconds: float) -> PatternResult:
         """An answer out of what was last known."""
         known = self._known

@@ -8,22 +8,23 @@ from solver_jobs.results.motion import SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.workers.pose_worker import PoseQuestion, run_pose_worker
 from solver_jobs.workers.spawning import NICENESS
-from solver_jobs.workers.task_service import SILENCE_SECONDS, Task, TaskService
+from solver_jobs.workers.task_service import Task, TaskService
 
 
 class PoseSearch(Task[PoseQuestion, PoseProgress, PoseResult]):
     """A search that was submitted; a cancelled one has no gait."""
 
     def unanswered(self, seconds: float) -> PoseResult:
-        """The result of a search that was cancelled, or whose process was silent for too long."""
-        status, sentence = SolveStatus.CANCELLED, "The search was cancelled."
-        if not self.is_ending:
-            status = SolveStatus.FAILED
-            sentence = (
-                f"The search gave no sign for {SILENCE_SECONDS:.0f} s and was ended. Try again when the "
-                "computer has less to do."
-            )
-        return PoseResult(status, None, None, False, (sentence,), 0.0, seconds)
+        """The result of a search that was cancelled."""
+        return _without_gait(SolveStatus.CANCELLED, "The search was cancelled.", seconds)
+
+    def hung(self, sentence: str, seconds: float) -> PoseResult:
+        """A failed result, so that a search over several problems goes on with the others."""
+        return _without_gait(SolveStatus.FAILED, sentence, seconds)
+
+
+def _without_gait(status: SolveStatus, sentence: str, seconds: float) -> PoseResult:
+    return PoseResult(status, None, None, False, (sentence,), 0.0, seconds)
 
 
 class PoseGaitSolver(TaskService[PoseSearch]):

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import ClassVar
 
-from core.errors import SimulationCancelledError, StateError
+from core.errors import SimulationCancelledError
 from core.physics.problem import SimulationProblem
 from solver_jobs.workers.simulation_worker import Simulate, Simulated, run_simulation_worker
 from solver_jobs.workers.spawning import BACKGROUND_NICENESS
@@ -14,17 +14,15 @@ class Simulation(Task[Simulate, float, Simulated]):
     """A simulation that was asked for; one that is ended has no answer."""
 
     grace: ClassVar[float] = 2.0
+    remedy: ClassVar[str] = "Simulate again."
 
     def unanswered(self, seconds: float) -> Simulated:
         """Nothing comes of it.
 
         Raises:
-            SimulationCancelledError: it was cancelled.
-            StateError: its process told nothing for too long.
+            SimulationCancelledError: always.
         """
-        if self.is_ending:
-            raise SimulationCancelledError("The simulation was cancelled.")
-        raise StateError("The simulator did not respond and was ended. Try again.")
+        raise SimulationCancelledError("The simulation was cancelled.")
 
 
 class Simulator(TaskService[Simulation]):

@@ -8,7 +8,6 @@ import itertools
 import logging
 import queue
 import threading
-import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -19,12 +18,15 @@ from core.errors import FootfallError, StateError
 from core.running_time import RunningClock
 from solver_jobs.workers.spawning import NICENESS
 from solver_jobs.workers.task_worker import Cancel, Progress, Submit, TaskResult
-from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess
+from solver_jobs.workers.worker_process import (
+    POLL_SECONDS,
+    SILENCE_SECONDS,
+    WorkerEndedError,
+    WorkerProcess,
+    hung_sentence,
+)
 
 _log = logging.getLogger(__name__)
-
-SILENCE_SECONDS = 120.0
-"""A process that tells nothing for so long is stuck, where a question does not say otherwise."""
 
 Payload = TypeVar("Payload")
 Known = TypeVar("Known")
@@ -41,6 +43,8 @@ class Task(ABC, Generic[Payload, Known, Result]):
 
     grace: ClassVar[float] = 1.0
     """How long the process may take to end when asked, s; then it is ended itself."""
+    remedy: ClassVar[str] = "Try again."
+    """What a person does where the process hung."""
 
     def __init__(self, task: Payload, progress: Callable[[Known], object]) -> None:
         self.task = task
@@ -76,14 +80,27 @@ class Task(ABC, Generic[Payload, Known, Result]):
 
     @abstractmethod
     def unanswered(self, seconds: float) -> Result:
-        """The result of a task that the process did not finish within `seconds`.
+        """The result of a cancelled task that the process did not finish within `seconds`.
 
         Raises:
-            FootfallError: nothing does.
+            FootfallError: it has none.
         """
 
+    def hung(self, sentence: str, seconds: float) -> Result:
+        """The result of a task whose process hung and was ended.
+
+        Args:
+            sentence: tells a person.
+            seconds: since the task's turn came.
+
+        Raises:
+            StateError: it has none.
+        """
+        del seconds
+        raise StateError(sentence)
+
     def latest(self, begun: float, heard: float) -> float:
-        """The time at which a process that has not answered is killed.
+        """The time at which a process that has not answered counts as hung.
 
         Args:
             begun: when the question's turn came, s.
@@ -128,7 +145,7 @@ class TaskService(Generic[TaskT]):
         self._name = name
         self._worker = WorkerProcess(warm_up, body, f"footfall {name}", niceness)
         self._numbers = itertools.count(1)
-        self._running = RunningClock(time.monotonic)
+        self._running = RunningClock(self._worker.clock)
         self._waiting: queue.SimpleQueue[TaskT | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
@@ -213,9 +230,8 @@ class TaskService(Generic[TaskT]):
         if question.is_ending:
             return question.unanswered(0.0)
         self._worker.ensure_started()
-        number, heard, halted = next(self._numbers), self._running(), False
+        number, heard, halted = next(self._numbers), self._running(), None
         self._worker.send(Submit(number, question.task))
-        latest = question.latest(begun, heard)
         while not self._closed:
             message = self._worker.receive(POLL_SECONDS)
             self._running.look()
@@ -224,14 +240,19 @@ class TaskService(Generic[TaskT]):
                 return self._result(message)
             if isinstance(message, Progress) and message.number == number:
                 question.tell(message.known)
-                latest = latest if halted else question.latest(begun, now)
-            if question.is_ending and not halted:
+                heard = now
+            if question.is_ending and halted is None:
                 self._worker.send(Cancel(number))
-                latest, halted = now + question.grace, True
+                halted = now
+            latest = question.latest(begun, heard) if halted is None else halted + question.grace
             if now > latest:
                 self._worker.kill()
                 self._start_worker()
-                return question.unanswered(now - begun)
+                if halted is not None:
+                    return question.unanswered(now - begun)
+                sentence = hung_sentence(self._name, now - heard, question.remedy)
+                _log.warning(sentence)
+                return question.hung(sentence, now - begun)
         raise self._closing()
 
     def _result(self, message: TaskResult) -> Any:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import re
+import sys
 import tomllib
 from collections.abc import Iterable
 
@@ -101,3 +103,62 @@ def test_the_physics_engine_with_a_wrong_factorisation_is_excluded() -> None:
     (physics,) = (one for one in allowed() if one.name == "mujoco-core")
     assert "4.0.0" not in physics.specifier
     assert "4.0.1" in physics.specifier
+
+
+MADE_TO_DERIVE_FROM = {
+    "casadi.Callback",
+    "matplotlib.figure.Figure",
+    "msgspec.Struct",
+    "ortools.sat.python.cp_model.CpSolverSolutionCallback",
+    "pydantic.BaseModel",
+    "starlette.exceptions.HTTPException",
+}
+"""Classes of others that their documentation has people derive from."""
+
+
+def imported_names(tree: ast.Module) -> dict[str, str]:
+    """What a file calls what it imports from others, with the whole name of that."""
+    found: dict[str, str] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            found |= {one.asname or one.name: f"{node.module}.{one.name}" for one in node.names}
+        elif isinstance(node, ast.Import):
+            found |= {one.asname or one.name: one.name for one in node.names}
+    return found
+
+
+def internals(tree: ast.Module) -> set[str]:
+    """Names of others' private modules that a file imports, and of others' classes that it derives from."""
+    names = imported_names(tree)
+    private = {name for name in names.values() if re.search(r"\._[a-z]", name.rpartition(".")[0])}
+    bases = {
+        ast.unparse(base) for node in ast.walk(tree) if isinstance(node, ast.ClassDef) for base in node.bases
+    }
+    whole = {
+        names[base.partition(".")[0]] + base[len(base.partition(".")[0]) :]
+        for base in bases
+        if base.partition(".")[0] in names
+    }
+    return {
+        name
+        for name in private | whole - MADE_TO_DERIVE_FROM
+        if name.partition(".")[0] not in {*sys.stdlib_module_names, "app", "core", "solver_jobs"}
+    }
+
+
+def test_whose_internals_are_used_has_an_upper_bound() -> None:
+    files = [path for room in ("app", "core", "solver_jobs") for path in (PROJECT / room).rglob("*.py")]
+    used = {name.partition(".")[0] for path in files for name in internals(ast.parse(path.read_text()))}
+    bounded = {
+        canonicalize_name(one.name)
+        for one in allowed()
+        if any(limit.operator == "<" for limit in one.specifier)
+    }
+    assert used >= {"uvicorn", "websockets"}
+    assert used <= bounded
+
+
+def test_internals_are_found_by_whatever_name_they_are_imported() -> None:
+    text = "import h11 as wire\nfrom a._b import C\nfrom pydantic import BaseModel as B\n"
+    text += "class X(wire.Connection): ...\nclass Y(C): ...\nclass Z(B): ...\n"
+    assert internals(ast.parse(text)) == {"h11.Connection", "a._b.C"}

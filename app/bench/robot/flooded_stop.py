@@ -1,4 +1,4 @@
-"""How soon a stop is on the wire while somebody without the token floods the studio with connections."""
+"""How soon a stop is on the wire while others flood the studio, without the token and with it."""
 
 import tempfile
 import time
@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 import numpy as np
 
 from app.bench.common.measure import Row, milliseconds, seconds_of
+from app.bench.robot.crowd import Crowd, crowded
 from app.bench.robot.floods import Attack, Flood, attacked, loopback_addresses
 from app.bench.robot.processes import Studio, Tap, busy_cores, emulator_process, sleeper
 from app.bench.robot.stop import BETWEEN_STOPS, when_stopped
@@ -62,6 +63,10 @@ def all_attacks(connections: int = CONNECTIONS) -> dict[str, Attack]:
         | {
             "all of these": Attack(tuple(Flood), connections),
             "all, from many addresses": Attack(tuple(Flood), connections, loopback_addresses(ADDRESSES)),
+            "pages and programs with the token": Attack((), 0, crowd=Crowd()),
+            "these and all floods": Attack(
+                tuple(Flood), connections, loopback_addresses(ADDRESSES), crowd=Crowd()
+            ),
         }
     )
 
@@ -88,7 +93,12 @@ class FloodedStudio:
     def under(self, attack: Attack, stops: int) -> Flooded:
         """Measures under a flood."""
         server = urlsplit(self.studio.address)
-        with attacked((server.hostname or "", server.port or 0), attack) as opened, sleeper() as late:
+        address = server.hostname or "", server.port or 0
+        with (
+            attacked(address, attack) as opened,
+            crowded(address, TOKEN, attack.crowd),
+            sleeper() as late,
+        ):
             time.sleep(SETTLED)
             late()
             first, log_bytes, begin = opened(), self._log.stat().st_size, time.monotonic()

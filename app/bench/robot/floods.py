@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from multiprocessing.connection import Connection
 
+from app.bench.robot.crowd import NOBODY, Crowd
+
 CHUNK_BYTES = 4096
 DRIP_SECONDS = 1.0
 """Between two bytes of a head that drips."""
@@ -62,11 +64,13 @@ class Attack:
         kinds: what its connections do, in turn.
         connections: how many are held open; one that the studio closes is opened again at once.
         sources: addresses that they come from, in turn.
+        crowd: visitors with the token beside them.
     """
 
     kinds: tuple[Flood, ...]
     connections: int
     sources: tuple[str, ...] = ("127.0.0.1",)
+    crowd: Crowd = NOBODY
 
 
 def loopback_addresses(count: int) -> tuple[str, ...]:

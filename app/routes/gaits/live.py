@@ -16,6 +16,7 @@ from app.web.dependencies import RequestBody, TheStudio, on_command_thread
 from app.web.state_lines import state_lines
 from core.errors import InputError
 from core.gait.gait import Gait
+from core.text.json_size import require_few_values
 from solver_jobs import Limit
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
@@ -85,6 +86,7 @@ async def _asked(request: Request, kind: type[Asked]) -> Asked:
     body = await request.body()
     if len(body) > MOST_BYTES:
         raise InputError(f"The gait document has {len(body)} bytes; at most {MOST_BYTES} are read.", "body")
+    require_few_values(body, "body")
     try:
         return kind.model_validate_json(body or b"{}")
     except ValidationError as error:

@@ -11,6 +11,7 @@ from app.server.connections import (
     Connection,
     Connections,
     Limits,
+    Rank,
     Trouble,
     limits_for,
 )
@@ -139,3 +140,11 @@ def test_limits_leave_descriptors_to_the_studio(descriptors: int) -> None:
     assert limits.strangers + limits.known <= max(descriptors // 2, descriptors - 384)
     assert limits.of_peer == MOST_OF_PEER
     assert limits_for(descriptors, has_token=False).of_peer is None
+
+
+def test_a_stop_is_not_pushed_out_by_newer_requests_with_the_token() -> None:
+    crowd = Crowd()
+    for rank in (Rank.STOP, Rank.TOKEN, Rank.STRANGER, Rank.TOKEN, Rank.TOKEN):
+        one = crowd.add("a")
+        one.is_asking, one.rank = True, rank
+    assert crowd.closed == [1, 2]

@@ -22,7 +22,7 @@ from solver_jobs import Limit, LiveSolver, Remedy, RemedyKind, SolveStatus
 from solver_jobs.live.solve import solve_live
 from solver_jobs.remedies.limit import largest_value
 from solver_jobs.remedies.search import find_remedies
-from solver_jobs.workers import live_service
+from solver_jobs.workers import worker_process
 from solver_jobs.workers.spawning import start_process
 from tests.support.solvers.cases import gait_problem
 
@@ -64,11 +64,11 @@ def test_a_process_that_is_killed_is_replaced(solver: LiveSolver) -> None:
 def test_no_answer_in_time_is_failed_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     started: list[str] = []
 
-    def start(body: Any, warm_up: None, name: str) -> Any:
+    def start(body: Any, warm_up: None, name: str, niceness: int) -> Any:
         started.append(name)
-        return start_process(body, warm_up, name)
+        return start_process(body, warm_up, name, niceness)
 
-    monkeypatch.setattr(live_service, "start_process", start)
+    monkeypatch.setattr(worker_process, "start_process", start)
     live = LiveSolver()
     result = live.solve(PROBLEM, 0.001)
     live.close()

@@ -103,7 +103,8 @@ def test_a_process_that_does_not_end_when_asked_is_replaced(errands: Errands) ->
 def test_a_process_that_answers_too_late_is_replaced(errands: Errands) -> None:
     assert works(errands)
     before = errands.process_id
-    assert errands.ask(ShortErrand(silent)).result(PATIENCE) == -1
+    with pytest.raises(StateError, match=r"errand runner gave no sign of life for 0 s and was ended\. Try"):
+        errands.ask(ShortErrand(silent)).result(PATIENCE)
     assert works(errands)
     assert errands.process_id != before
 

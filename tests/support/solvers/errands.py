@@ -15,7 +15,7 @@ Errand = Callable[[Report], int]
 
 
 class AskedErrand(Task[Errand, int, int]):
-    """An errand; where its process gives no answer, −1 comes of it."""
+    """An errand; where it is cancelled and its process gives no answer, −1 comes of it."""
 
     grace: ClassVar[float] = 60.0
 

@@ -282,6 +282,10 @@ export const api = {
   noteRun: (id, note) => request("PUT", `${runAddress(id)}/note`, { note }),
   deleteRun: onRun("DELETE"),
   restoreRun: onRun("POST", "/restore"),
+  /** @type {(table: string, row: number) => Promise<{number: number}>} */
+  setAside: (table, row) => request("POST", "/api/storage/unreadable/set-aside", { table, row }),
+  /** @type {(number: number) => Promise<any>} */
+  bringBack: (number) => request("POST", "/api/storage/unreadable/bring-back", { number }),
   /** @param {Json} target */
   jogGhost: (target) => bytes("POST", "/api/robot/jog/ghost", target),
   measuredPoses: () => bytes("GET", "/api/robot/poses"),

@@ -6,6 +6,7 @@ import { clockTime, counted, fixed, seconds } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
+import { unreadableRow } from "../shell/unreadable_rows.js";
 import { overrideText } from "../state/override.js";
 
 const TONES = {
@@ -136,23 +137,28 @@ export function runList(open) {
   ];
   oneTabStop(list);
   const more = h("button", { class: "link", text: "Older runs", hidden: true });
-  let shown = [];
+  let [shown, unreadable] = [[], []];
   const begin = ticket();
 
   const load = attempt(async (offset) => {
     const isOld = begin();
     const answer = await api.runs(filter.wanted(offset));
     if (isOld()) return null;
-    shown = offset ? [...shown, ...answer.runs] : answer.runs;
+    const [before, damagedBefore] = offset ? [shown, unreadable] : [[], []];
+    shown = [...before, ...answer.runs];
+    unreadable = [...damagedBefore, ...answer.unreadable];
     filter.offer(answer);
-    list.replaceChildren(...shown.map((run) => runRow(run, open)));
+    list.replaceChildren(
+      ...shown.map((run) => runRow(run, open)),
+      ...unreadable.map((entry) => unreadableRow(entry, () => load(0))),
+    );
     setText(count, answer.total ? counted(answer.total, "run") : noRuns(answer));
-    setAttribute(more, "hidden", shown.length >= answer.total);
+    setAttribute(more, "hidden", shown.length + unreadable.length >= answer.total);
     return shown;
   });
 
   for (const field of filter.fields) field.addEventListener("change", () => load(0));
-  more.addEventListener("click", () => load(shown.length));
+  more.addEventListener("click", () => load(shown.length + unreadable.length));
   return {
     element: h("div", { class: "run-all" }, filter.element, count, list, more),
     refresh: () => load(0),

@@ -6,6 +6,7 @@ import { ticket } from "../lib/latest_only.js";
 import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
+import { unreadableRow } from "../shell/unreadable_rows.js";
 
 const COLUMNS = [
   {
@@ -195,7 +196,7 @@ function trialRow(trial, open) {
 }
 
 /** A kept trial that has no figures: why, and a way to be rid of it. */
-function unreadableRow({ id, name, sentence }) {
+function figurelessRow({ id, name, sentence }) {
   const away = h("button", {
     type: "button",
     class: "link",
@@ -211,7 +212,7 @@ function unreadableRow({ id, name, sentence }) {
   );
 }
 
-function listParts({ trials, compared, unreadable }, { open, band }) {
+function listParts({ trials, compared, unreadable }, { open, band, changed }) {
   const groups = compared.map((group) => ({
     ...group,
     lines: trials.filter(({ id }) => group.trials.includes(id)),
@@ -222,7 +223,7 @@ function listParts({ trials, compared, unreadable }, { open, band }) {
     "ul",
     { class: "run-list", role: "list", "aria-label": "Trials" },
     ...trials.map((trial) => trialRow(trial, open)),
-    ...unreadable.map(unreadableRow),
+    ...unreadable.map((entry) => (entry.table ? unreadableRow(entry, changed) : figurelessRow(entry))),
   );
   oneTabStop(list);
   return [
@@ -272,7 +273,7 @@ export async function trialList({ store, open, add, band, videos, cameras, learn
     const content = await trialApi.list();
     if (isOld()) return;
     const held = body.contains(document.activeElement) ? trialOf(document.activeElement) : null;
-    body.replaceChildren(...listParts(content, { open, band }));
+    body.replaceChildren(...listParts(content, { open, band, changed: attempt(fill) }));
     if (held) [...body.querySelectorAll("button")].find((one) => trialOf(one) === held)?.focus();
   }
 

@@ -5,6 +5,7 @@ import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt, report } from "../lib/toasts.js";
 import { openVideo } from "./video_page.js";
 import { videoApi } from "../api/videos.js";
+import { unreadableRow } from "../shell/unreadable_rows.js";
 import { uploadField, videoRow } from "./video_rows.js";
 
 const UPLOAD_HELP =
@@ -22,7 +23,7 @@ export const openVideos = attempt(async (page) => {
   const again = () => openVideos(page);
   const open = (video) => openVideo(page, video, { back: again }).catch(report);
   const isOld = page.begin();
-  const { videos } = await videoApi.list();
+  const { videos, unreadable } = await videoApi.list();
   if (isOld()) return;
   const upload = uploadField(open);
   const kept = videos.filter(({ state }) => state !== "removed");
@@ -30,6 +31,7 @@ export const openVideos = attempt(async (page) => {
     "ul",
     { class: "run-list", role: "list", "aria-label": "Videos" },
     ...kept.map((video) => videoRow(video, { open, trial: page.one })),
+    ...unreadable.map((entry) => unreadableRow(entry, again)),
   );
   oneTabStop(list);
   page.show(

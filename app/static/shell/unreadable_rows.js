@@ -1,0 +1,38 @@
+/** Entries of the database that cannot be read: a line with the reason, and a way to set it aside. */
+
+import { api } from "../api/gaits.js";
+import { h } from "../lib/dom.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+const HELP = "Take this entry out of its list. The studio keeps the entry, and Undo brings it back";
+
+/**
+ * An entry that cannot be read.
+ * @typedef {{table: string, row: number, noun: string, id: string, sentence: string}} Unreadable
+ */
+
+/**
+ * The line of an entry that cannot be read.
+ * @param {Unreadable} entry
+ * @param {() => unknown} changed called when it is set aside, and when it is brought back
+ */
+export function unreadableRow({ table, row, noun, id, sentence }, changed) {
+  const setAside = attempt(async () => {
+    const { number } = await api.setAside(table, row);
+    changed();
+    const undo = attempt(async () => {
+      await api.bringBack(number);
+      changed();
+    });
+    toast(`The ${noun} “${id}” is set aside.`, { action: { label: "Undo", act: undo } });
+  });
+  const button = h("button", {
+    type: "button",
+    class: "link",
+    text: "Set aside",
+    title: HELP,
+    "aria-label": `Set aside the ${noun} ${id}`,
+    on: { click: setAside },
+  });
+  return h("li", { class: "why", data: { toneText: "caution" } }, `${sentence} `, button);
+}

@@ -7,6 +7,7 @@ from app.store.run_journal import Entry, EntryKind, abandoned_journal, journalle
 from app.store.storage_errors import left_undone
 from app.store.tables.run_rows import add_bytes, add_states, byte_row, put_run, state_row
 from app.store.tables.run_store import RunStore
+from core.errors import DamagedRowError
 
 ABANDONED = "The program that sent this run ended while it was on; nothing resumes by itself."
 
@@ -22,6 +23,10 @@ def _end_abandoned(database: Database) -> None:
     running = [content["id"] for content in log.running()]
     # A journal may also be of a run that was not begun yet, or that the database had wholly.
     for run in {*running, *journalled_runs(database.path.parent)}:
+        try:
+            log.get(run)
+        except DamagedRowError:  # its journal stays, for the time when the row can be read again
+            continue
         with abandoned_journal(database.path.parent, run) as entries:
             row = log.get(run)
             if entries is not None and row is not None and row.content["state"] == "running":

@@ -6,7 +6,7 @@ import { clockTime, counted, fixed, seconds } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
-import { unreadableRow } from "../shell/unreadable_rows.js";
+import { unreadableRow } from "../shell/storage_notice.js";
 import { overrideText } from "../state/override.js";
 
 const TONES = {

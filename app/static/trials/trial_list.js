@@ -6,7 +6,7 @@ import { ticket } from "../lib/latest_only.js";
 import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
-import { unreadableRow } from "../shell/unreadable_rows.js";
+import { unreadableRow } from "../shell/storage_notice.js";
 
 const COLUMNS = [
   {

@@ -5,7 +5,7 @@ import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt, report } from "../lib/toasts.js";
 import { openVideo } from "./video_page.js";
 import { videoApi } from "../api/videos.js";
-import { unreadableRow } from "../shell/unreadable_rows.js";
+import { unreadableRow } from "../shell/storage_notice.js";
 import { uploadField, videoRow } from "./video_rows.js";
 
 const UPLOAD_HELP =

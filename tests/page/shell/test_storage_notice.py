@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -42,3 +44,22 @@ def test_nothing_is_told_where_all_is_well(browser: Browser, tmp_path: Path) -> 
     ):
         expect(page.get_by_role("list", name="Gaits").get_by_role("listitem").first).to_be_visible()
         expect(page.locator("#storage-notice")).to_be_hidden()
+
+
+def test_an_entry_that_cannot_be_read_is_set_aside_and_brought_back(browser: Browser, tmp_path: Path) -> None:
+    path = fill(tmp_path, 1)
+    with closing(sqlite3.connect(path)) as connection, connection:
+        connection.execute("INSERT INTO trial(id, made, content) VALUES('spoilt', 1.0, '{')")
+    with (
+        running_studio(tmp_path) as studio,
+        opened_page(browser, studio.url, 1024, 768) as page,
+    ):
+        notice = page.locator("#storage-notice")
+        expect(notice).to_contain_text("1 entry of the database cannot be read")
+        page.get_by_role("button", name="Trials", exact=True).click()
+        expect(page.get_by_role("list", name="Trials")).to_contain_text("The trial “spoilt” cannot be read")
+        notice.get_by_text("Show them").click()
+        notice.get_by_role("button", name="Set aside the trial spoilt").click()
+        expect(notice).to_be_hidden()
+        page.get_by_role("button", name="Undo", exact=True).last.click()
+        expect(notice).to_contain_text("1 entry of the database cannot be read")

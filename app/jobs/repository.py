@@ -9,7 +9,6 @@ from typing import Any
 from app.common.clock import Span
 from app.common.json import Json
 from app.store.database import Database
-from app.store.row_damage import RowDamage
 from app.store.storage_errors import left_undone
 from app.store.tables.job_store import JobStore
 from core.errors import NotFoundError
@@ -41,11 +40,9 @@ class JobRepository:
         self._spans: dict[str, Span] = {}
         self._numbers = itertools.count(1)
         self._contents: dict[str, Json] = {}
-        self.unreadable: tuple[RowDamage, ...] = ()
         with left_undone("The list of jobs is empty"):
-            newest = self._store.newest(MOST_SHOWN)
-            self._contents = {row.id: row.content for row in reversed(newest.rows)}
-            self.unreadable = newest.damaged
+            newest = self._store.newest(MOST_SHOWN).rows
+            self._contents = {row.id: row.content for row in reversed(newest)}
         for content in self._contents.values():
             content["number"] = next(self._numbers)
             self._take_back(content)
@@ -115,6 +112,10 @@ class JobRepository:
     def contents(self) -> list[Json]:
         """The newest jobs, newest first."""
         return list(reversed(self._contents.values()))[:MOST_SHOWN]
+
+    def unreadable(self) -> list[Json]:
+        """Jobs among the newest that cannot be read."""
+        return self._store.newest(MOST_SHOWN).unreadable
 
     def _take_back(self, content: Json) -> Json:
         """A job from the database: nothing of its course is there, and it is not on any more."""

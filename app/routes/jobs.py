@@ -51,8 +51,10 @@ async def submit(job: JobBody, studio: TheStudio, author: TheAuthor) -> Json:
 @router.get("")
 async def list_jobs(studio: TheStudio) -> Json:
     """The newest jobs, newest first."""
-    unreadable = [damage.content() for damage in studio.job_repository.unreadable]
-    return {"jobs": await on_command_thread(studio, studio.publisher.job_views), "unreadable": unreadable}
+    return {
+        "jobs": await on_command_thread(studio, studio.publisher.job_views),
+        "unreadable": await on_command_thread(studio, studio.job_repository.unreadable),
+    }
 
 
 @router.get("/{job_id}")

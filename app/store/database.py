@@ -43,7 +43,7 @@ class Database:
             back to a backup would lose it again. None where nothing of the kind is known.
         row_damages: rows that could not be read, by table and number. All others are as they were.
         files: the files of the database.
-        damaged: called, from any thread, once `damage` is set, and for each new row in `row_damages`.
+        damaged: called, from any thread, once `damage` is set, and when there are new rows in `row_damages`.
 
     Raises:
         InputError: a newer program wrote it, or the data folder cannot be used.
@@ -105,8 +105,10 @@ class Database:
         with self._sentences(), self._lock:
             return self._connection.execute(query, values).fetchall()
 
-    def take_row_damage(self, damage: RowDamage, columns: Iterable[Any]) -> None:
-        """Keeps in mind that a row cannot be read, for as long as it is there.
+    def take_row_damage(self, damage: RowDamage, columns: Iterable[Any]) -> bool:
+        """Keeps in mind that a row cannot be read, for as long as it is there; tells whether that is new.
+
+        Whoever reads rows calls `damaged` once for all new ones.
 
         Args:
             damage: what is wrong.
@@ -117,7 +119,7 @@ class Database:
         """
         place = (damage.table, damage.row)
         if place in self.row_damages:
-            return
+            return False
         self.row_damages[place] = damage
         logger.warning("%s", damage.sentence)
         is_text_lost = any(isinstance(column, DamagedText) for column in columns)
@@ -129,7 +131,7 @@ class Database:
                     raise StorageDamagedError(
                         f"The database {self.path} is damaged ({found}).", str(self.path)
                     )
-        self.damaged()
+        return True
 
     def _require_files(self, fault: str | None) -> None:
         """The files of the database are still its own.

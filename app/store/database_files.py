@@ -4,6 +4,8 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.store.quick_check import damage_of
+
 _BESIDE = ("", "-wal", "-shm")
 _WAL_MAGIC = (b"\x37\x7f\x06\x82", b"\x37\x7f\x06\x83")
 """First bytes of a write-ahead log (SQLite, “Database File Format”, section 4.1)."""
@@ -42,7 +44,7 @@ class DatabaseFiles:
                 what = "deleted" if now is None else "replaced by another file"
                 return f"{path} was {what} while it was in use."
         size = self._path.stat().st_size
-        if size < self._size:
+        if size < self._size and damage_of(self._path, is_open=True) is not None:  # else it was vacuumed
             return f"{self._path} was cut off from {self._size} to {size} bytes while it was in use."
         self._size = size
         return None

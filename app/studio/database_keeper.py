@@ -52,13 +52,16 @@ class DatabaseKeeper:
         """Begins with the backups, and with the check where the database is large."""
         self._thread.start()
 
-    def view(self) -> Json:
+    def view(self, *, is_looked_at: bool = True) -> Json:
         """Everything that is wrong, as JSON content.
+
+        Args:
+            is_looked_at: see `Unreadable.known`.
 
         Returns:
             Whether the file is damaged, and a sentence or None; where rows cannot be read, these as well.
         """
-        damage, unreadable = self._database.damage, self.unreadable.view()
+        damage, unreadable = self._database.damage, self.unreadable.view(is_looked_at=is_looked_at)
         sentence = damage or self._trouble or _row_sentence(unreadable["count"])
         view = {"damaged": damage is not None, "sentence": sentence}
         return {**view, "unreadable": unreadable} if unreadable["count"] else view
@@ -127,7 +130,7 @@ class DatabaseKeeper:
             self._tell()
 
     def _tell(self) -> None:
-        self._changed(self.view())
+        self._changed(self.view(is_looked_at=False))
 
 
 def _row_sentence(count: int) -> str | None:

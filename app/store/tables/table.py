@@ -105,7 +105,9 @@ class Table(Generic[Row]):
         """The same with something made of each row; a row of which it cannot be made counts as damaged."""
         kind, names = self._kind, self._kind.columns
         query = f"SELECT rowid, {', '.join(names)} FROM {kind.name} {rest}"
-        views, damaged = [], []
+        views: list[View] = []
+        damaged: list[RowDamage] = []
+        is_news = False
         for number, *row in self._database.rows(query, *values):
             columns = dict(zip(names, row, strict=True))
             try:
@@ -113,6 +115,9 @@ class Table(Generic[Row]):
                     views.append(view(kind.value(columns)))
             except InputError as error:
                 damaged.append(self._damage(number, columns, error.sentence.rstrip(".")))
+                is_news |= self._database.take_row_damage(damaged[-1], columns.values())
+        if is_news:
+            self._database.damaged()
         return Selection(tuple(views), tuple(damaged))
 
     def first(self, rest: str, *values: Any) -> Row | None:
@@ -142,9 +147,7 @@ class Table(Generic[Row]):
         kind = self._kind
         key = " of ".join(_shown(columns[column]) for column in reversed(kind.key))
         sentence = f"The {kind.noun} “{key}” cannot be read: {reason}. {WAY_OUT}"
-        damage = RowDamage(kind.name, number, kind.noun, key, sentence)
-        self._database.take_row_damage(damage, columns.values())
-        return damage
+        return RowDamage(kind.name, number, kind.noun, key, sentence)
 
 
 @contextmanager

@@ -83,17 +83,21 @@ class Unreadable:
                 table.select("WHERE rowid>? AND rowid<=?", last, end)
                 last = end
 
-    def known(self) -> list[RowDamage]:
-        """The rows that are known to be damaged and are still there."""
+    def known(self, *, is_looked_at: bool = True) -> list[RowDamage]:
+        """The rows that are known to be damaged.
+
+        Args:
+            is_looked_at: whether those that are shown first are looked at again, since they may be gone.
+        """
         known = self._database.row_damages
-        for place, damage in tuple(known.items())[:MOST_SHOWN]:
+        for place, damage in tuple(known.items())[: MOST_SHOWN if is_looked_at else 0]:
             if not self._is_damaged(damage.table, damage.row):
                 known.pop(place, None)
         return list(known.values())
 
-    def view(self) -> Json:
+    def view(self, *, is_looked_at: bool = True) -> Json:
         """The same as JSON content: how many, and the first of them."""
-        known = self.known()
+        known = self.known(is_looked_at=is_looked_at)
         return {"count": len(known), "rows": [damage.content() for damage in known[:MOST_SHOWN]]}
 
     def set_aside(self, table: str, row: int) -> int:

@@ -4,6 +4,7 @@ import sqlite3
 import time
 import uuid
 from collections.abc import Callable
+from contextlib import suppress
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from app.common.json import Json, finite
 from app.store.database import Database
 from app.store.tables.camera_setup_store import CameraSetupRow, CameraSetupStore
 from app.store.tables.table import reading
-from core.errors import InputError, NotFoundError, StateError
+from core.errors import DamagedRowError, InputError, NotFoundError, StateError
 from core.vision.setup import CameraSetup
 
 MOST_VIEWS = 500
@@ -113,7 +114,8 @@ class CameraSetupService:
 
     def delete(self, setup: str) -> None:
         """Takes a setup out of the list; `restore` brings it back."""
-        self._known(setup)
+        with suppress(DamagedRowError):  # it goes all the same
+            self._known(setup)
         self._store.put_deleted(setup, time.time())
         self._changed()
 

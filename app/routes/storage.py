@@ -29,8 +29,8 @@ class SetAside(RequestBody):
 
 @router.get("/unreadable")
 async def list_unreadable(studio: TheStudio) -> Json:
-    """The entries that cannot be read: how many, and the first 100 with sentences."""
-    return await run_in_threadpool(studio.storage.unreadable.view)
+    """Entries that cannot be read: how many, the first 100 with sentences, and those that were set aside."""
+    return await run_in_threadpool(studio.storage.unreadable.full_view)
 
 
 @router.post("/unreadable/set-aside")

@@ -7,7 +7,7 @@ import logging
 import sqlite3
 import threading
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -88,13 +88,16 @@ class Database:
         Raises:
             StorageError: the disk or the database does not take it, or a file of the database was taken away.
         """
-        if self.damage is not None:
-            raise StorageDamagedError(self.damage, str(self.path))
         with self._sentences(), self._lock:
-            self._require_files(self.files.fault())
+            self._require_whole()
             with self._connection:
                 yield self._connection
-            self._require_files(self.files.fault_after_write())
+            self._require_whole()
+
+    def look_at_files(self) -> None:
+        """Finds out whether a file of the database was taken away, though nothing is written."""
+        with suppress(StorageDamagedError), self._sentences(), self._lock:
+            self._require_whole()
 
     def rows(self, query: str, *values: Any) -> list[tuple[Any, ...]]:
         """What a query finds.
@@ -113,9 +116,6 @@ class Database:
         Args:
             damage: what is wrong.
             columns: the row's; the first time in a table that one is no text any more, the file is looked at.
-
-        Raises:
-            StorageDamagedError: the file is damaged.
         """
         place = (damage.table, damage.row)
         if place in self.row_damages:
@@ -125,28 +125,31 @@ class Database:
         is_text_lost = any(isinstance(column, DamagedText) for column in columns)
         if is_text_lost and damage.table not in self._looked_at:
             self._looked_at.add(damage.table)
-            with self._sentences():
-                found = damage_of(self.path, is_open=True)
-                if found is not None:
-                    raise StorageDamagedError(
-                        f"The database {self.path} is damaged ({found}).", str(self.path)
-                    )
+            found = damage_of(self.path, is_open=True)
+            if found is not None:
+                self.take_damage(f"The database {self.path} is damaged ({found}).")
         return True
 
-    def _require_files(self, fault: str | None) -> None:
-        """The files of the database are still its own.
+    def _require_whole(self) -> None:
+        """The database is not damaged, and its files are still its own.
 
         Raises:
             StorageDamagedError: they are not. What the database holds was copied to a backup.
         """
+        if self.damage is not None:
+            raise StorageDamagedError(self.damage, str(self.path))
+        fault = self.files.fault()
         if fault is None:
             return
+        self.damage = fault  # whoever waits for the lock makes no second copy
         try:
             backup = make_backup(self.path, RESCUE, self._connection)
             kept = f"Everything that was stored until then is in the backup {backup.path.name}."
         except FootfallError as error:
             kept = f"What was stored since the last backup may be lost: {error.sentence}"
-        raise StorageDamagedError(f"{fault} {kept}", str(self.path))
+        self.damage = None
+        self.take_damage(f"{fault} {kept}")
+        raise StorageDamagedError(self.damage or fault, str(self.path))
 
     def take_damage(self, sentence: str) -> None:
         """Refuses to write from now on, since the file is damaged."""

@@ -19,6 +19,7 @@ class RowDamage:
         noun: what it is, for a person.
         key: how a person finds it.
         sentence: why it cannot be read, and what to do.
+        may_be_set_aside: whether it can be taken out of its list; some rows belong together.
     """
 
     table: str
@@ -26,6 +27,7 @@ class RowDamage:
     noun: str
     key: str
     sentence: str
+    may_be_set_aside: bool = True
 
     def content(self) -> Json:
         """As JSON content."""
@@ -36,4 +38,5 @@ class RowDamage:
             "id": self.key,
             "name": self.key,
             "sentence": self.sentence,
+            "may_be_set_aside": self.may_be_set_aside,
         }

@@ -19,6 +19,8 @@ logger = logging.getLogger(__name__)
 CHECKED_AT_ONCE = 50_000_000
 """Bytes; a larger database is checked in the background, while the studio starts."""
 DAY_SECONDS = 86_400.0
+FILES_SECONDS = 5.0
+"""How often is looked whether the files of the database are still there, s."""
 LOOK_SECONDS = 600.0
 """How often is looked whether a backup is due, s."""
 
@@ -52,16 +54,13 @@ class DatabaseKeeper:
         """Begins with the backups, and with the check where the database is large."""
         self._thread.start()
 
-    def view(self, *, is_looked_at: bool = True) -> Json:
+    def view(self) -> Json:
         """Everything that is wrong, as JSON content.
-
-        Args:
-            is_looked_at: see `Unreadable.known`.
 
         Returns:
             Whether the file is damaged, and a sentence or None; where rows cannot be read, these as well.
         """
-        damage, unreadable = self._database.damage, self.unreadable.view(is_looked_at=is_looked_at)
+        damage, unreadable = self._database.damage, self.unreadable.view()
         sentence = damage or self._trouble or _row_sentence(unreadable["count"])
         view = {"damaged": damage is not None, "sentence": sentence}
         return {**view, "unreadable": unreadable} if unreadable["count"] else view
@@ -97,9 +96,21 @@ class DatabaseKeeper:
         with left_undone("The entries of the database are not looked through"):
             self.unreadable.look(lambda: not self._closing.is_set() and self._database.damage is None)
         self.look()
-        while not self._closing.wait(LOOK_SECONDS):
-            self.look()
-            self._keep_time()
+        next_look = LOOK_SECONDS
+        while not self._closing.wait(FILES_SECONDS):
+            self._database.look_at_files()
+            self._forget_replaced_rows()
+            next_look -= FILES_SECONDS
+            if next_look <= 0:
+                next_look = LOOK_SECONDS
+                self.look()
+                self._keep_time()
+        self._database.look_at_files()
+
+    def _forget_replaced_rows(self) -> None:
+        with left_undone("Whether entries can still not be read is not looked at"):
+            if self.unreadable.forget_replaced():
+                self._tell()
 
     def _keep_time(self) -> None:
         with left_undone("How late it is in the data folder is not kept"):
@@ -130,7 +141,7 @@ class DatabaseKeeper:
             self._tell()
 
     def _tell(self) -> None:
-        self._changed(self.view(is_looked_at=False))
+        self._changed(self.view())
 
 
 def _row_sentence(count: int) -> str | None:

@@ -181,11 +181,11 @@ class TrialService:
 
     def restore(self, trial: str) -> Json:
         """Brings a deleted trial back."""
-        row = replace(self._known(trial), deleted=None)
-        summary = _summary(row)
-        self._store.put_deleted(trial, None)
+        if not self._store.put_deleted(trial, None):
+            raise _unknown(trial)
+        row = self._known(trial)
         self._tell(row)
-        return summary
+        return _summary(row)
 
     def record(self, trial: str) -> TrialRecord:
         """A trial as it was kept, for what is laid over it."""

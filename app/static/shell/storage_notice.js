@@ -8,7 +8,8 @@ const HELP = "Take this entry out of its list. The studio keeps the entry, and U
 
 /**
  * An entry that cannot be read.
- * @typedef {{table: string, row: number, noun: string, id: string, sentence: string}} Unreadable
+ * @typedef {{table: string, row: number, noun: string, id: string, sentence: string,
+ *   may_be_set_aside: boolean}} Unreadable
  */
 
 /**
@@ -16,7 +17,7 @@ const HELP = "Take this entry out of its list. The studio keeps the entry, and U
  * @param {Unreadable} entry
  * @param {() => unknown} changed called when it is set aside, and when it is brought back
  */
-export function unreadableRow({ table, row, noun, id, sentence }, changed) {
+export function unreadableRow({ table, row, noun, id, sentence, may_be_set_aside: mayGo }, changed) {
   const setAside = attempt(async () => {
     const { number } = await api.setAside(table, row);
     changed();
@@ -34,7 +35,7 @@ export function unreadableRow({ table, row, noun, id, sentence }, changed) {
     "aria-label": `Set aside the ${noun} ${id}`,
     on: { click: setAside },
   });
-  return h("li", { class: "why", data: { toneText: "caution" } }, `${sentence} `, button);
+  return h("li", { class: "why", data: { toneText: "caution" } }, `${sentence} `, mayGo ? button : null);
 }
 
 /** Shows over the preview what the studio says of its database; nothing where all is well. */

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from app.common.json import Json
 from app.store.database import Database
 from app.store.row_damage import RowDamage
-from app.store.tables.contents import CAMERA, OBJECT
+from app.store.tables.contents import CAMERA, SETUP
 from app.store.tables.shapes import COUNT, MOMENT, Maybe, Stored, text
 from app.store.tables.table import Table, TableKind
 
@@ -41,7 +41,7 @@ SETUPS = TableKind(
     "camera_setup",
     "camera setup",
     ("id", "revision"),
-    {"id": text, "revision": COUNT, "made": MOMENT, "content": Stored(OBJECT)},
+    {"id": text, "revision": COUNT, "made": MOMENT, "content": Stored(SETUP)},
     CameraSetupRow,
 )
 DELETED_SETUPS = TableKind(

@@ -200,14 +200,14 @@ TRIAL = Fields(
         "made": MOMENT,
         "name": text,
         "by": text,
-        "expected_cm": NUMBER,
+        "expected_cm": POSITIVE,
         "iterations": Number(least=1, most=10_000, is_whole=True),
         "note": text,
         "gait": text,
         "gait_name": text,
         "run": text,
         "is_example": Maybe(truth),
-        "frame_rate": POSITIVE,
+        "frame_rate": Number(1e-3, 1e5),
         "ends": Maybe(ListOf(COUNT)),
         "plan": Maybe(TRIAL_PLAN),
         "sight": Maybe(SIGHT),
@@ -247,6 +247,17 @@ VIDEO = Fields(
         "state": OneOf(("kept", "recording", "removed")),
         "sentence": text,
         "hash": Maybe(text),
+    }
+)
+SETUP = Fields(
+    {
+        "name": text,
+        "size": Maybe(ListOf(COUNT, 2)),
+        "lens": Maybe(OBJECT),
+        "points": ListOf(Fields({"pixel": ListOf(NUMBER, 2), "place_cm": ListOf(NUMBER, 2)})),
+        "colours": ListOf(OBJECT),
+        "limits": OBJECT,
+        "note": text,
     }
 )
 CAMERA = Fields({"name": text, "use": text, "setup": text, "records": truth})

@@ -12,8 +12,8 @@ from typing import Any
 from app.common.json import Json
 from app.store.database import Database
 from app.store.tables.contents import APPROVAL_RECORD
-from app.store.tables.shapes import COUNT, MOMENT, WHOLE, Maybe, Shape, Stored, text
-from app.store.tables.table import Selection, Table, TableKind, View
+from app.store.tables.shapes import COUNT, MOMENT, WHOLE, Maybe, Shape, Stored, text, text_or_nothing
+from app.store.tables.table import Selection, Table, TableKind, View, move_aside
 from app.undo.history import Action, Author, History, LogEntry
 from core.errors import InputError
 
@@ -22,6 +22,11 @@ MOST_AUTOMATIC = 200
 
 MOST_SAVED = 10
 """Saved documents that a gait's file is compared with."""
+
+OF_GAIT = (
+    "Go back to the last state of the gait that can be shown: its line in the list of gaits offers this."
+)
+"""The way out of rows that belong to the edits of a gait; see `app.gaits.recovery`."""
 
 _MISSING = "Documents are missing in the history of “{}”."
 
@@ -115,13 +120,19 @@ OPEN_GAITS = TableKind(
         "revoked": Maybe(text),
     },
     OpenGaitRow,
+    OF_GAIT,
 )
 HISTORY = TableKind(
     "history",
     "step in the history",
     ("gait", "position"),
-    {"position": COUNT, "label": text, "document": text, "page": text, "name": text, "edit": text},
+    {
+        "position": COUNT,
+        "document": text,
+        **dict.fromkeys(("label", "page", "name", "edit"), text_or_nothing),
+    },
     _entry,
+    OF_GAIT,
 )
 VERSIONS = TableKind("version", "version", ("gait", "number"), _VERSION, VersionRow)
 APPROVALS = TableKind(
@@ -166,9 +177,13 @@ class EditHistoryStore:
         return dict(self._history.select("WHERE gait=?", gait).rows)
 
     def revision(self, gait: str) -> int:
-        """Revision of a gait's present document; 0 where it was never edited, or that cannot be read."""
-        rows = self._open_gaits.select("WHERE gait=?", gait).rows
-        return rows[0].revision if rows else 0
+        """Revision of a gait's present document; 0 where it was never edited.
+
+        Where it cannot be read, it is at least the number of documents.
+        """
+        known = "SELECT max(revision) FROM open_gait WHERE gait=? AND typeof(revision)='integer'"
+        steps = "SELECT count(*) FROM history WHERE gait=?"
+        return int(self._database.rows(known, gait)[0][0] or self._database.rows(steps, gait)[0][0])
 
     def is_edited(self, gait: str) -> bool:
         """Whether there is an editing state of a gait, readable or not."""
@@ -223,7 +238,10 @@ class EditHistoryStore:
         history = row.history
         added = [(at, entry) for at, entry in history.entries.items() if before.get(at) is not entry]
         gone = [(gait, at) for at in before if at not in history.entries]
+        damaged = self._history.select("WHERE gait=?", gait).damaged if stored is None else ()
         with self._database.writing() as connection:
+            for damage in damaged:
+                move_aside(connection, damage.table, damage.row, self._database.clock.wall())
             if stored is None:
                 connection.execute("DELETE FROM history WHERE gait=?", (gait,))
             connection.executemany("DELETE FROM history WHERE gait=? AND position=?", gone)

@@ -52,7 +52,7 @@ class RunWriter:
             for _, entry in entries:
                 if entry.kind is EntryKind.END:
                     put_run(self._connection, json.loads(entry.data))
-        self._require(self._files.fault_after_write())
+        self._require(self._files.fault())
 
     def _require(self, fault: str | None) -> None:
         if fault is not None:

@@ -41,6 +41,14 @@ def text(value: Any, place: str) -> str:
     return value
 
 
+def text_or_nothing(value: Any, place: str) -> str:
+    """A text that nothing depends on; nothing where it is none."""
+    try:
+        return text(value, place)
+    except ShapeError:
+        return ""
+
+
 def truth(value: Any, place: str) -> bool:
     """True or false."""
     if not isinstance(value, bool):
@@ -83,7 +91,8 @@ class Number:
         if not math.isfinite(value) if isinstance(value, float) else abs(value) > LARGEST:
             raise ShapeError(place, "is no finite number")
         if not self.least <= value <= self.most:
-            raise ShapeError(place, f"lies outside {self.least:g} to {self.most:g}")
+            bound = f"below {self.least:g}" if value < self.least else f"above {self.most:g}"
+            raise ShapeError(place, f"is {bound}")
         return value
 
 

@@ -1,5 +1,8 @@
 """The one way to read a table: each row gives a value or a marked damage, and may be taken out of lists."""
 
+import base64
+import json
+import sqlite3
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -7,7 +10,7 @@ from typing import Any, Generic, TypeVar
 
 from app.common.json import Json
 from app.store.database import Database
-from app.store.row_damage import RowDamage
+from app.store.row_damage import DamagedText, RowDamage
 from app.store.tables.shapes import Shape, ShapeError
 from core.errors import DamagedRowError, InputError
 
@@ -28,6 +31,7 @@ class TableKind(Generic[Row]):
         key: the columns by which a person finds a row, the last one first.
         shapes: of the columns, by name.
         make: makes the value of a row, from the columns by name.
+        way_out: says what a person can do about a row that cannot be read.
     """
 
     name: str
@@ -35,6 +39,7 @@ class TableKind(Generic[Row]):
     key: tuple[str, ...]
     shapes: Mapping[str, Shape]
     make: Callable[..., Row]
+    way_out: str = WAY_OUT
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -146,8 +151,8 @@ class Table(Generic[Row]):
     def _damage(self, number: int, columns: Mapping[str, Any], reason: str) -> RowDamage:
         kind = self._kind
         key = " of ".join(_shown(columns[column]) for column in reversed(kind.key))
-        sentence = f"The {kind.noun} “{key}” cannot be read: {reason}. {WAY_OUT}"
-        return RowDamage(kind.name, number, kind.noun, key, sentence)
+        sentence = f"The {kind.noun} “{key}” cannot be read: {reason}. {kind.way_out}"
+        return RowDamage(kind.name, number, kind.noun, key, sentence, kind.way_out == WAY_OUT)
 
 
 @contextmanager
@@ -167,7 +172,40 @@ def reading(what: str = "") -> Iterator[None]:
     except KeyError as error:
         raise DamagedRowError(f"{what}“{error.args[0]}” is missing") from error
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        raise DamagedRowError(f"{what}{error}") from error
+        raise DamagedRowError(f"{what}{' '.join(str(error).split())[:200]}") from error
+
+
+def move_aside(connection: sqlite3.Connection, table: str, row: int, made: float) -> int | None:
+    """Moves a row to the table `set_aside`, within a transaction.
+
+    Args:
+        connection: on which the transaction is.
+        table: where the row is.
+        row: its number there.
+        made: the present time, s since the epoch.
+
+    Returns:
+        The number by which it is brought back; None where there is no such row.
+    """
+    found = connection.execute(f"SELECT * FROM {table} WHERE rowid=?", (row,))
+    values = found.fetchone()
+    if values is None:
+        return None
+    names = [column[0] for column in found.description]
+    columns = dict(zip(names, map(_written, values), strict=True))
+    kept = connection.execute(
+        "INSERT INTO set_aside(name, row, made, columns) VALUES(?,?,?,?)",
+        (table, row, made, json.dumps(columns)),
+    )
+    connection.execute(f"DELETE FROM {table} WHERE rowid=?", (row,))
+    return int(kept.lastrowid or 0)
+
+
+def _written(value: Any) -> Any:
+    """A column as JSON content."""
+    if isinstance(value, bytes):
+        return {"text" if isinstance(value, DamagedText) else "bytes": base64.b64encode(value).decode()}
+    return value
 
 
 def json_of(path: str, column: str = "content") -> str:

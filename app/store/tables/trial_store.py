@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from app.common.json import Json
 from app.store.database import Database
 from app.store.tables.contents import TRIAL
-from app.store.tables.shapes import MOMENT, Maybe, Stored, text
+from app.store.tables.shapes import MOMENT, Maybe, ShapeError, Stored, text
 from app.store.tables.table import Selection, Table, TableKind, View, json_of, key_of
 
 
@@ -22,6 +22,11 @@ class TrialRow:
 
     def __post_init__(self) -> None:
         key_of(self, self.content, "id")
+        ends = self.content.get("ends")
+        if ends is not None and len(ends) != self.content["iterations"]:
+            raise ShapeError(
+                "content.ends", f"has {len(ends)} ends of {self.content['iterations']} iterations"
+            )
 
     @property
     def is_deleted(self) -> bool:

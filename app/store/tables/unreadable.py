@@ -10,14 +10,14 @@ from app.common.json import Json
 from app.store.database import Database
 from app.store.row_damage import DamagedText, RowDamage
 from app.store.tables.camera_setup_store import CAMERAS, DELETED_SETUPS, SETUPS
-from app.store.tables.edit_history_store import APPROVALS, HISTORY, OPEN_GAITS, VERSIONS
+from app.store.tables.edit_history_store import APPROVALS, HISTORY, OF_GAIT, OPEN_GAITS, VERSIONS
 from app.store.tables.job_store import JOBS
 from app.store.tables.learning_store import COURSES, PHYSICS_SETS
 from app.store.tables.photo_store import PHOTOS
 from app.store.tables.result_store import RESULTS
 from app.store.tables.run_store import ALL_FIGURES, PIECES, RUN_PLANS, RUNS, STATES
 from app.store.tables.simulation_store import SIMULATION_CONTENTS, SIMULATIONS
-from app.store.tables.table import Table, TableKind, reading
+from app.store.tables.table import Table, TableKind, move_aside, reading
 from app.store.tables.times_store import TIMES
 from app.store.tables.trial_reference_store import SENT, SIMULATED
 from app.store.tables.trial_store import TRIALS
@@ -51,8 +51,10 @@ KINDS: tuple[TableKind[Any], ...] = (
     TIMES,
 )
 """What each table holds."""
-PAGE = 200
-"""Rows that are read at one time, so that others wait for milliseconds only."""
+NOT_SET_ASIDE = frozenset(kind.name for kind in KINDS if kind.way_out == OF_GAIT)
+"""Tables whose rows belong together."""
+PAGE = 20
+"""Rows that are read at one time; others have their turn between."""
 MOST_SHOWN = 100
 """Rows that are listed; once some of them are set aside, others follow."""
 
@@ -83,22 +85,37 @@ class Unreadable:
                 table.select("WHERE rowid>? AND rowid<=?", last, end)
                 last = end
 
-    def known(self, *, is_looked_at: bool = True) -> list[RowDamage]:
-        """The rows that are known to be damaged.
+    def forget_replaced(self, *, is_read: bool = False) -> bool:
+        """Forgets rows that are gone; tells whether there were any.
 
         Args:
-            is_looked_at: whether those that are shown first are looked at again, since they may be gone.
+            is_read: whether rows are read again, which takes a while, and forgotten where they can be.
         """
         known = self._database.row_damages
-        for place, damage in tuple(known.items())[: MOST_SHOWN if is_looked_at else 0]:
-            if not self._is_damaged(damage.table, damage.row):
-                known.pop(place, None)
-        return list(known.values())
+        places = tuple(known)[:MOST_SHOWN]
+        is_there = self._is_damaged if is_read else self._exists
+        replaced = [place for place in places if not is_there(*place)]
+        for place in replaced:
+            known.pop(place, None)
+        return bool(replaced)
 
-    def view(self, *, is_looked_at: bool = True) -> Json:
+    def known(self) -> list[RowDamage]:
+        """The rows that are known to be damaged."""
+        return list(self._database.row_damages.values())
+
+    def view(self) -> Json:
         """The same as JSON content: how many, and the first of them."""
-        known = self.known(is_looked_at=is_looked_at)
+        known = self.known()
         return {"count": len(known), "rows": [damage.content() for damage in known[:MOST_SHOWN]]}
+
+    def full_view(self) -> Json:
+        """The same, looked at again, and the rows that were set aside, the last one first."""
+        self.forget_replaced(is_read=True)
+        aside = self._database.rows(
+            "SELECT number, name, row, made FROM set_aside ORDER BY number DESC LIMIT ?", MOST_SHOWN
+        )
+        keys = ("number", "table", "row", "made")
+        return {**self.view(), "aside": [dict(zip(keys, row, strict=True)) for row in aside]}
 
     def set_aside(self, table: str, row: int) -> int:
         """Takes a damaged row out of its table and keeps it.
@@ -112,22 +129,19 @@ class Unreadable:
         """
         if not any(kind.name == table for kind in KINDS):
             raise NotFoundError(f"There is no table “{table}”.", "table")
+        if table in NOT_SET_ASIDE:
+            raise StateError(f"This entry is not set aside alone. {OF_GAIT}", "table")
         if not self._exists(table, row):
             raise NotFoundError(f"The table {table} has no row {row}.", "row")
         if not self._is_damaged(table, row):
             raise StateError(f"Row {row} of the table {table} can be read, and stays where it is.", "row")
         with self._database.writing() as connection:
-            found = connection.execute(f"SELECT * FROM {table} WHERE rowid=?", (row,))
-            names = [column[0] for column in found.description]
-            columns = dict(zip(names, map(_written, found.fetchone()), strict=True))
-            kept = connection.execute(
-                "INSERT INTO set_aside(name, row, made, columns) VALUES(?,?,?,?)",
-                (table, row, self._database.clock.wall(), json.dumps(columns)),
-            )
-            connection.execute(f"DELETE FROM {table} WHERE rowid=?", (row,))
+            number = move_aside(connection, table, row, self._database.clock.wall())
+        if number is None:
+            raise NotFoundError(f"Row {row} of the table {table} is set aside already.", "row")
         self._database.row_damages.pop((table, row), None)
         self._database.damaged()
-        return int(kept.lastrowid or 0)
+        return number
 
     def bring_back(self, number: int) -> None:
         """Puts a row that was set aside back where it was.
@@ -180,15 +194,8 @@ class Unreadable:
         return bool(self._database.rows(f"SELECT 1 FROM {table} WHERE rowid=?", row))
 
 
-def _written(value: Any) -> Any:
-    """A column as JSON content."""
-    if isinstance(value, bytes):
-        return {"text" if isinstance(value, DamagedText) else "bytes": base64.b64encode(value).decode()}
-    return value
-
-
 def _read(value: Any) -> Any:
-    """Inverse of `_written`."""
+    """A column out of the JSON content that `move_aside` made of it."""
     if not isinstance(value, dict):
         return value
     ((kind, text),) = value.items()

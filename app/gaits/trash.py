@@ -39,7 +39,7 @@ def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait,
     """
     found = []
     for gait_id in files.deleted_ids():
-        if not files.is_id(gait_id) or files.saved_at(gait_id) is not None:
+        if files.saved_at(gait_id) is not None:
             continue
         name = f"{gait_id}.json"
         with suppress(FootfallError):

@@ -1,12 +1,15 @@
 """Runs whose program is gone: their records are completed from what it left behind."""
 
 import json
+from typing import Any
 
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, abandoned_journal, journalled_runs
 from app.store.run_rows import add_bytes, add_states, byte_row, put_run, state_row
 from app.store.run_store import RunStore
 from app.store.storage_errors import left_undone
+from core.errors import InputError
+from core.text.documents import json_content
 
 ABANDONED = "The program that sent this run ended while it was on; nothing resumes by itself."
 
@@ -30,11 +33,34 @@ def _end_abandoned(database: Database) -> None:
 
 def _complete(database: Database, run: str, content: dict[str, object], entries: tuple[Entry, ...]) -> None:
     pieces = [entry for entry in entries if entry.kind.is_bytes]
-    states = [entry for entry in entries if entry.kind is EntryKind.STATE]
-    ends = [json.loads(entry.data) for entry in entries if entry.kind is EntryKind.END]
-    end = ends[-1] if ends else content | {"state": "interrupted", "sentence": ABANDONED}
+    states = [entry for entry in entries if entry.kind is EntryKind.STATE and _is_state(_content(entry))]
+    ends = [_content(entry) for entry in entries if entry.kind is EntryKind.END]
+    end = content | {"state": "interrupted", "sentence": ABANDONED}
+    if ends and _is_end(ends[-1], content):
+        end = ends[-1]
     known = RunStore(database).counts(run)
     with database.writing() as connection:
         add_bytes(connection, [byte_row(run, entry) for entry in pieces[known.pieces :]])
         add_states(connection, [state_row(run, entry) for entry in states[known.states :]])
         put_run(connection, end)
+
+
+def _content(entry: Entry) -> Any:
+    """The JSON of an entry; None where it is damaged."""
+    try:
+        content = json_content(entry.data, "a journal")
+        json.dumps(content, ensure_ascii=False).encode()
+    except (InputError, UnicodeEncodeError):
+        return None
+    return content
+
+
+def _is_state(content: Any) -> bool:
+    return isinstance(content, list) and len(content) == 3 and all(isinstance(one, str) for one in content)
+
+
+def _is_end(end: Any, content: dict[str, object]) -> bool:
+    """Whether it is the same run with everything that the database has of it."""
+    if not isinstance(end, dict) or not content.keys() <= end.keys() or not isinstance(end["state"], str):
+        return False
+    return all(end[key] == content[key] for key in ("id", "started"))

@@ -10,7 +10,7 @@ from app.common.json import Json
 from app.store.database import Database
 from app.store.gait_files import PHOTOS, require_folder
 from app.store.photo_store import PhotoStore
-from app.store.plain_file import write_atomically
+from app.store.plain_file import read_plain_file, write_atomically
 from app.trials.service import TrialService
 from app.vision.services import VisionServices, ask
 from app.vision.worker import MakePhoto, PhotoFiles, Source
@@ -119,9 +119,9 @@ class TrialPhotos:
         """
         self._known(trial, photo)
         try:
-            return self._path(photo, is_small=is_small).read_bytes()
-        except OSError as error:
-            raise NotFoundError(f"The file of photo {photo} is gone: {error.strerror}.", "photo") from error
+            return read_plain_file(self._path(photo, is_small=is_small), MOST_BYTES)
+        except FileNotFoundError as error:
+            raise NotFoundError(f"The file of photo {photo} is gone.", "photo") from error
 
     def _known(self, trial: str, photo: str) -> dict[str, Any]:
         content = self._store.get(trial, photo)

@@ -1,5 +1,6 @@
 """Read-only float and boolean arrays for frozen values."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -16,25 +17,36 @@ to 1e-9 m. Where a gait is symmetric or a foot is still, lengths are equal excep
 from processor to processor; a bare comparison would lead to other waypoints or sentences on each."""
 
 
-def frozen_floats(values: ArrayLike, shape: Sequence[int | None], name: str) -> Floats:
+FARTHEST = 10_000.0
+"""Numbers beyond this are no m, m/s, N or rad of a robot; a guard against a slip of the pen in a file."""
+
+
+def frozen_floats(
+    values: ArrayLike, shape: Sequence[int | None], name: str, most: float = math.inf
+) -> Floats:
     """Copies `values` into a read-only float array of the wanted shape.
 
     Args:
         values: anything numpy can read as numbers.
         shape: wanted length of each axis; None where any length will do.
         name: what the array is, for the message.
+        most: that any number may be, whatever its sign, in the unit of `values`.
 
     Returns:
         A C-contiguous read-only float64 array.
 
     Raises:
-        InputError: wrong number of axes or wrong length, or a number that is not finite.
+        InputError: wrong number of axes or wrong length, or a number that is not finite or beyond `most`.
     """
     array = np.array(values, dtype=np.float64, order="C")
     _require_shape(array.shape, shape, name)
     if not np.isfinite(array).all():
         index = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise InputError(f"{name} holds {array[index]} at {index}; every number must be finite.", name)
+    for index in np.argwhere(np.abs(array) > most)[:1].tolist():
+        raise InputError(
+            f"{name} holds {array[tuple(index)]:g} at {tuple(index)}; it must lie within ±{most:g}.", name
+        )
     array.setflags(write=False)
     return array
 

@@ -1,5 +1,8 @@
 """The one exception tree: every refusal names what happened, the limit and the remedy."""
 
+MOST_LETTERS = 4000
+"""Characters of a sentence; what it repeats of a file may have millions."""
+
 
 class FootfallError(Exception):
     """An expected refusal with a sentence for the user.
@@ -10,9 +13,9 @@ class FootfallError(Exception):
     """
 
     def __init__(self, sentence: str, where: str | None = None) -> None:
-        super().__init__(sentence)
-        self.sentence = sentence
-        self.where = where
+        self.sentence = _readable(sentence)
+        self.where = None if where is None else _readable(where)
+        super().__init__(self.sentence)
 
 
 class InputError(FootfallError):
@@ -57,3 +60,9 @@ class StorageFullError(StorageError):
 
 class StorageDamagedError(StorageError):
     """What was stored cannot be read any more."""
+
+
+def _readable(text: str) -> str:
+    """A text without its middle where it is longer than anybody reads; the remedy stands at its end."""
+    half = MOST_LETTERS // 2
+    return text if len(text) <= MOST_LETTERS else f"{text[:half]} … {text[-half:]}"

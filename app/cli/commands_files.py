@@ -22,6 +22,7 @@ from app.export.import_gait import gait_of_recording, read_gait
 from app.export.source import Exportable, exportable_file, exportable_plan, recording_of_npz
 from app.export.trajectory_files import (
     companion_path,
+    finds_companion,
     read_text,
     read_whole_text,
     require_unread,
@@ -233,7 +234,7 @@ def imported_gait(options: Namespace) -> DescribedGait:
         read_whole_text(path),
         path.name,
         name=options.name if path.suffix == ".json" else name,
-        companion=read_whole_text(companion) if path.suffix == ".csv" and companion.exists() else None,
+        companion=read_whole_text(companion) if path.suffix == ".csv" and finds_companion(path) else None,
         sample_time=options.sample_time,
         robot=options.robot,
         fit=fit,

@@ -21,7 +21,7 @@ from app.common.signals import ending_signals
 from app.emulator.emulated_robot import start_emulator
 from app.emulator.faults import Fault, FaultRequest
 from app.emulator.profiles import ProfileName
-from app.export.trajectory_files import companion_path, read_waypoints
+from app.export.trajectory_files import finds_companion, read_waypoints
 from app.export.way_files import checked_way, read_way_file
 from app.gaits.verdict_views import approval_view, override_view, override_words, verdict_view
 from app.store.gait_files import default_data_folder
@@ -186,7 +186,7 @@ def _verdict(file: Path, model: RobotModel, waypoints: Waypoints) -> tuple[Verdi
         The verdict, and for each waypoint whether all feet are known to be down there.
     """
     hold_ok = (False,) * waypoints.count
-    if companion_path(file).exists():
+    if finds_companion(file):
         read = read_way_file(file, model.name)
         for assumption in read.assumptions:
             note(assumption)

@@ -15,8 +15,7 @@ from core.gait.manual_motion import manual_motion
 from core.library.new_gait import with_robot
 from core.library.sequence import chain_runs, part_name, require_own, run_of
 from core.motion.trajectory import Trajectory
-from core.pose_gaits.gait_poses import found_gait, pose_problem, with_poses
-from core.pose_gaits.pose_check import check_poses
+from core.pose_gaits.gait_poses import confirmed_gait, pose_problem, with_poses
 from core.pose_gaits.pose_gait import PoseGait
 from core.recorded.recorded_motion import gait_motion
 from core.robot.model import load_robot
@@ -84,8 +83,8 @@ def poses_of(gait: Gait) -> PoseGait:
         CheckError: the search gave no poses that the checker confirms.
     """
     model = load_robot(gait.robot)
-    found = found_gait(gait, model)
-    if found is not None and check_poses(found).confirmed:
+    found = confirmed_gait(gait, model)
+    if found is not None:
         return found
     is_bare = gait.poses is None or gait.poses.found is None
     why = "has no poses yet" if is_bare else "has changed since its poses were found"

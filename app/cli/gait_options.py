@@ -16,6 +16,7 @@ from app.store.named_file import file_path
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline, heading_step, with_iterations, with_return
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS, GaitOptions
+from core.gait.step import MAX_STEP
 from core.library.library import library, optimised_entry
 from core.library.new_gait import with_robot
 from core.motion.heading_profile import HeadingProfile
@@ -65,7 +66,7 @@ def add_gait_options(parser: ArgumentParser) -> None:
     add("gait", help="walk, amble, s-gait, c-gait, rotate, or a gait file")
     add_robot(parser, "default the gait's own; with other legs it is drawn anew")
     travel = parser.add_mutually_exclusive_group()
-    travel.add_argument("--step", type=number(0.0, 0.2, "m"), default=None, help="m an iteration")
+    travel.add_argument("--step", type=number(0.0, MAX_STEP, "m"), default=None, help="m an iteration")
     travel.add_argument(
         "--goal", type=pair, default=None, metavar="X,Y", help="total travel at direction 1, m"
     )

@@ -1,6 +1,6 @@
 """The gait document's form: pydantic models, from which the published JSON Schema is made. All numbers SI."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from pydantic_core import PydanticCustomError
@@ -63,12 +63,20 @@ Metres = Annotated[Number, Field(description="m")]
 Radians = Annotated[Number, Field(description="rad")]
 
 
+MOST_ITEMS = 4000
+"""No list or row of a document is longer; a guard, for each has its own bound below that."""
+Item = TypeVar("Item")
+Items = Annotated[list[Item], Field(max_length=MOST_ITEMS)]
+Named = Annotated[dict[str, Item], Field(max_length=MOST_ITEMS)]
+Row = Annotated[str, Field(max_length=MOST_ITEMS)]
+
+
 class TimelineModel(_Model):
     """Contact of each foot: a string of 1 (stance) and 0 (swing), foot 1 first; `locked` likewise."""
 
     sample_time: Number = _field("time between samples, s")
-    feet: list[str] = _field("a string a foot, a character a sample: 1 stance, 0 swing", min_length=1)
-    locked: list[str] | None = _field("likewise: 1 where the cell is locked; null: none is", default=None)
+    feet: Items[Row] = _field("a string a foot, a character a sample: 1 stance, 0 swing", min_length=1)
+    locked: Items[Row] | None = _field("likewise: 1 where the cell is locked; null: none is", default=None)
 
 
 class SegmentModel(_Model):
@@ -82,9 +90,9 @@ class SegmentModel(_Model):
 class VocabularyModel(_Model):
     """What the names of a segment table mean."""
 
-    xy: dict[str, Number] = _field("multiple of the step's displacement, by name")
-    z: dict[str, Number] = _field("motor stroke of a centred foot, m, by name")
-    segments: dict[str, SegmentModel] = _field("segments by name")
+    xy: Named[Number] = _field("multiple of the step's displacement, by name")
+    z: Named[Number] = _field("motor stroke of a centred foot, m, by name")
+    segments: Named[SegmentModel] = _field("segments by name")
 
 
 class SegmentTableModel(_Model):
@@ -93,16 +101,16 @@ class SegmentTableModel(_Model):
     samples_per_segment: Whole = _field("samples of a segment, both its ends included")
     repeat_from: Whole = _field("segment, counted from 1, with which the repeating part begins", default=1)
     repeat_to: Whole | None = _field("its last segment; null: the last of the table", default=None)
-    link: list[list[str]] = _field("segments between two iterations, a row a foot", default_factory=list)
-    feet: list[list[str]] = _field("segment names, a row a foot", min_length=1)
+    link: Items[Items[str]] = _field("segments between two iterations, a row a foot", default_factory=list)
+    feet: Items[Items[str]] = _field("segment names, a row a foot", min_length=1)
     definitions: VocabularyModel = _field("what the names mean")
 
 
 class HeldModel(_Model):
     """Feet that are in the air on purpose at the ends of a gait, counted from 1."""
 
-    start: list[Whole] = _field("feet held up at the first sample", default_factory=list)
-    end: list[Whole] = _field("feet held up at the last sample", default_factory=list)
+    start: Items[Whole] = _field("feet held up at the first sample", default_factory=list)
+    end: Items[Whole] = _field("feet held up at the last sample", default_factory=list)
 
 
 class OptionsModel(_Model):
@@ -170,7 +178,7 @@ class RecordingModel(_Model):
     text: str = _field("the file's text, to the last character")
     companion: str | None = _field("text of a trajectory's companion; null: it had none", default=None)
     sha256: str = _field("SHA-256 of `text` in UTF-8, hexadecimal")
-    assumed: list[str] = _field("what reading the file assumed, a sentence each", default_factory=list)
+    assumed: Items[str] = _field("what reading the file assumed, a sentence each", default_factory=list)
     fit: RecordingFitModel = _field(
         "how the motion is changed to fit the robot. Left out where it is as recorded",
         default_factory=RecordingFitModel,
@@ -185,11 +193,11 @@ class FoundPosesModel(_Model):
 
     answers: str = _field("SHA-256 of what was asked; poses for anything else are solved again")
     step: Number = _field("travel of the body a cycle, m")
-    bodies: list[tuple[Metres, Metres, Metres]] = _field(
+    bodies: Items[tuple[Metres, Metres, Metres]] = _field(
         "point of the body axis in the actuator plane at each pose, m; z above the standing feet's platforms"
     )
-    feet: list[list[tuple[Metres, Metres, Metres]]] = _field("platform centre of each foot at each pose, m")
-    headings: list[Number] | None = _field(
+    feet: Items[Items[tuple[Metres, Metres, Metres]]] = _field("platform centre of each foot at each pose, m")
+    headings: Items[Number] | None = _field(
         "turn of the body at each pose, rad. Left out where it is 0 throughout", default=None
     )
 
@@ -225,7 +233,7 @@ class PosesModel(_Model):
         default=Poses.overlap,
     )
     found: FoundPosesModel | None = _field("the poses; null: none were found yet", default=None)
-    pinned: list[PinnedPoseModel] = _field(
+    pinned: Items[PinnedPoseModel] = _field(
         "where the body is to be at some poses. Left out where none is pinned", default_factory=list
     )
 
@@ -252,7 +260,7 @@ class SingleGaitModel(_Model):
     robot: str = _field("name of the robot's parameters file", default="deltawalker")
     orientation: Orientation = _field("FB moves along the diagonals, FBS along the axes (thesis 3.2)")
     direction: Whole = _field("1 to 4 (thesis Table 3.1)", default=1)
-    order: list[Whole] = _field("feet in the order of their steps at direction 1, counted from 1")
+    order: Items[Whole] = _field("feet in the order of their steps at direction 1, counted from 1")
     step: tuple[Metres, Metres, Radians] = _field(
         "dx, dy in m and yaw in rad of the body an iteration, at direction 1"
     )
@@ -300,7 +308,7 @@ class GaitDocument(SingleGaitModel):
 
     model_config = ConfigDict(json_schema_extra={"$schema": SCHEMA_DIALECT})
 
-    sequence: list[SequencePartModel] = _field(
+    sequence: Items[SequencePartModel] = _field(
         "gaits that follow each other; then robot, direction, order, step, iterations and timeline follow "
         "from them. Left out for a gait of its own",
         default_factory=list,

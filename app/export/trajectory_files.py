@@ -44,6 +44,20 @@ def companion_path(path: Path) -> Path:
     return path.with_name(path.stem + COMPANION_SUFFIX)
 
 
+def finds_companion(path: Path) -> bool:
+    """Whether a companion stands beside a file.
+
+    Raises:
+        InputError: something is there that is no file, such as a pipe, on which reading would wait.
+    """
+    companion = companion_path(path)
+    if companion.is_symlink() or companion.exists():
+        if companion.is_file():
+            return True
+        raise InputError(f"{companion} is no file. Move it elsewhere.", str(companion))
+    return False
+
+
 def require_unread(output: Path | None, read: Path | None, *, has_companion: bool = False) -> None:
     """Makes sure that a command does not write over what it reads, under whatever name.
 
@@ -90,8 +104,7 @@ def read_trajectory(path: Path) -> TrajectoryFile:
     Raises:
         InputError: it is malformed, or not in the world's frame.
     """
-    companion = companion_path(path)
-    companion_text = read_text(companion) if companion.exists() else None
+    companion_text = read_text(companion_path(path)) if finds_companion(path) else None
     return parse_world_trajectory(read_text(path), path.name, companion_text)
 
 

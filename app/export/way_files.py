@@ -3,15 +3,18 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from app.common.clipped import clipped_content, clipped_from_content
 from app.common.json import Json
-from app.export.trajectory_files import companion_path, read_text, write_with_companion
+from app.export.trajectory_files import companion_path, finds_companion, read_text, write_with_companion
 from core.arrays import Floats
 from core.checks.checked_plan import Beyond, CheckedPlan
 from core.errors import InputError
+from core.motion.balance import STANDING_DEPTH
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.pose_gait import PoseGait
-from core.robot.kinematics import walker_feet
+from core.robot.kinematics import feet_in_robot, walker_feet
 from core.robot.model import RobotModel, load_robot
 from core.wire.waypoint_companion import (
     WaypointCompanion,
@@ -70,7 +73,7 @@ def read_way_file(path: Path, robot: str | None = None) -> WayFile:
     file = read_waypoint_csv(text, path.name)
     waypoints = file.waypoints
     companion: WaypointCompanion | str | None = None
-    if companion_path(path).exists():
+    if finds_companion(path):
         companion = parse_waypoint_companion(read_text(companion_path(path)), text, path.name)
     said = companion.robot if isinstance(companion, WaypointCompanion) else None
     model = load_robot(robot or said or ROBOT)
@@ -84,8 +87,9 @@ def read_way_file(path: Path, robot: str | None = None) -> WayFile:
         if companion.motion is not None:
             require_same_strokes(model, companion.motion, waypoints, path.name)
         cut = clipped_from_content(companion.origin.get("clipped_mm", []), waypoints.strokes.shape)
-        down = _all_feet_down(companion, waypoints.count, path.name)
-        return WayFile(model, waypoints, companion.motion, file.notes, cut, down)
+        named = _all_feet_down(companion, waypoints.count, path.name)
+        down, notes = _truly_down(model, waypoints, named, path.name)
+        return WayFile(model, waypoints, companion.motion, (*file.notes, *notes), cut, down)
     assumptions = () if companion is None else (companion,)
     return WayFile(model, waypoints, None, (*file.notes, *assumptions), hold_ok=(False,) * waypoints.count)
 
@@ -102,6 +106,28 @@ def _all_feet_down(companion: WaypointCompanion, count: int, name: str) -> tuple
             "all_feet_down",
         )
     return tuple(i in down for i in range(count))
+
+
+def _truly_down(
+    model: RobotModel, waypoints: Waypoints, said: tuple[bool, ...], name: str
+) -> tuple[tuple[bool, ...], tuple[str, ...]]:
+    """Waypoints at which a companion has all feet down and the strokes too, and a note on the others.
+
+    A foot that is in the air at every waypoint is held up on purpose.
+    """
+    heights = feet_in_robot(model, waypoints.strokes)[..., 2]
+    deepest = np.where(np.isnan(heights), np.inf, heights).min(axis=1, keepdims=True)
+    up = ~(heights <= deepest + STANDING_DEPTH)
+    is_up = up[:, ~up.all(axis=0)].any(axis=1)
+    lifted = [number for number, down in enumerate(said) if down and is_up[number]]
+    if not lifted:
+        return said, ()
+    note = (
+        f"The companion of {name} says that all feet are down at {len(lifted)} waypoints (the first is "
+        f"number {lifted[0]}, counted from 0) where the strokes have a foot in the air. No pause ends there."
+    )
+    down = tuple(down and not up for down, up in zip(said, is_up.tolist(), strict=True))
+    return down, (note,)
 
 
 def checked_way(model: RobotModel, motion: Trajectory, file: WayFile) -> CheckedPlan:

@@ -64,8 +64,6 @@ def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait,
     """
     found = []
     for gait_id in files.deleted_ids():
-        if not files.is_id(gait_id):
-            continue
         name = f"{gait_id}.json"
         with suppress(FootfallError):
             text = None if gait_id in library() else log.present_document(trash_key(gait_id))

@@ -16,7 +16,7 @@ from core.gait.held_feet import HeldFeet, held_sentence
 from core.gait.manual_motion import manual_motion, stance_slip
 from core.gait.poses import FoundPoses
 from core.gait.recording import AS_RECORDED, Recording, RecordingForm
-from core.pose_gaits.gait_poses import asked_of, drawn_poses, found_gait, gait_of_poses, pose_problem
+from core.pose_gaits.gait_poses import asked_of, confirmed_gait, drawn_poses, gait_of_poses, pose_problem
 from core.pose_gaits.pace import motion_words
 from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_gait import PoseGait
@@ -82,12 +82,13 @@ def pose_plan(gait: Gait, model: RobotModel, result: Json | None) -> Plan:
     Raises:
         FootfallError: the gait asks for what it cannot have, or adapted poses are out of reach.
     """
-    found = found_gait(gait, model)
+    found = confirmed_gait(gait, model)
     kept = None if result is None else result.get("found")
     problem = pose_problem(gait, model)
     if found is None and kept is not None and kept["answers"] == asked_of(problem):
-        found = gait_of_poses(problem, FoundPoses(**kept))
-    if found is not None and check_poses(found).confirmed:
+        solved = gait_of_poses(problem, FoundPoses(**kept))
+        found = solved if check_poses(solved).confirmed else None
+    if found is not None:
         return _of_poses(PlanSource.POSES, _poses_note(found), found)
     is_infeasible = result is not None and result.get("status") == SolveStatus.INFEASIBLE
     told = result.get("explanation", ()) if result is not None and is_infeasible else ()

@@ -9,9 +9,12 @@ from typing import Any
 
 from app.bridge.devices import SerialDevice, found_again
 from app.bridge.transport import serial_devices
-from app.store.plain_file import write_atomically
+from app.store.plain_file import read_plain_file, write_atomically
 from core.errors import FootfallError
+from core.text.documents import json_content
 
+_MOST_BYTES = 100_000
+"""Bytes of the file that names the last device."""
 logger = logging.getLogger(__name__)
 
 
@@ -57,17 +60,17 @@ class RobotPorts:
 
     def _recall(self) -> SerialDevice | None:
         try:
-            return _parse(self._memory.read_bytes())
+            return _parse(read_plain_file(self._memory, _MOST_BYTES))
         except FileNotFoundError:
             return None
-        except (OSError, ValueError, TypeError, KeyError) as error:
+        except (FootfallError, ValueError, TypeError, KeyError) as error:
             logger.warning("%s is left aside: it names no device (%s).", self._memory, error)
             return None
 
 
 def _parse(data: bytes) -> SerialDevice:
     """Raises ValueError, TypeError or KeyError for anything that is no device."""
-    content = json.loads(data)
+    content = json_content(data, "the file")
     device, description, number = (content[key] for key in ("device", "description", "serial_number"))
     if not (isinstance(device, str) and isinstance(description, str) and isinstance(number, str | None)):
         raise TypeError("its fields are no texts")

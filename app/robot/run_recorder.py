@@ -58,7 +58,7 @@ class RunRecorder:
         changed: Callable[[], None] = lambda: None,
         writer: RunWriter | None = None,
     ) -> None:
-        self._runs = RunStore(database)
+        self._runs, self._database = RunStore(database), database
         self._data = database.path.parent
         self._writer = writer or RunWriter(database.path, database.files)
         self._changed = changed
@@ -87,9 +87,14 @@ class RunRecorder:
             )
         if lag <= LAG_SHOWN:
             return None
+        if self._database.damage is not None:
+            return (
+                "The database takes nothing of the run any more. The run stands in its journal, in the "
+                "folder running of the data folder, and is taken from there once the database is back."
+            )
         return (
-            f"The record of the run lags by {lag:.0f} s: the database does not take it ({self._reason}). "
-            "Nothing is lost so far; make room on the disk of the data folder."
+            f"The record of the run lags by {lag:.0f} s: the database does not take it "
+            f"({self._reason.rstrip('.')}). Nothing is lost so far; make room on the disk of the data folder."
         )
 
     def log(self, direction: Direction, data: bytes, when: float) -> None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
+from app.store.plain_file import sweep_partials
 from app.store.quick_check import damage_of, reading
 from app.store.storage_errors import file_error, storage_error
 from core.errors import StorageDamagedError, StorageError, StorageFullError
@@ -27,7 +28,7 @@ _OLD_SECONDS = 3600.0
 """A backup that was begun so long ago is not being made any more, s."""
 
 
-_NUMBER = re.compile("(?<=[a-z])-([0-9]+)$")
+_NUMBER = re.compile("(?<=[a-z])-([0-9]{1,9})$")
 """The number of a backup, behind its kind."""
 
 
@@ -119,7 +120,7 @@ def make_backup(database: Path, kind: str, source: sqlite3.Connection | None = N
     partial = folder / f".{name}.{os.getpid()}.partial"
     try:
         folder.mkdir(exist_ok=True)
-        _sweep(folder)
+        sweep_partials(folder, _is_abandoned)
         _require_room(database)
         if source is None:
             with closing(reading(database, is_open=True)) as opened:
@@ -184,7 +185,6 @@ def _rotate(data: Path, kind: str) -> None:
         backup.path.unlink(missing_ok=True)
 
 
-def _sweep(folder: Path) -> None:
-    for partial in folder.glob(".*.partial*"):
-        if partial.stat().st_mtime < time.time() - _OLD_SECONDS:
-            partial.unlink(missing_ok=True)
+def _is_abandoned(partial: Path, state: os.stat_result) -> bool:
+    del partial
+    return state.st_mtime < time.time() - _OLD_SECONDS

@@ -4,6 +4,7 @@ Every write is committed before its method returns, so that what was acknowledge
 """
 
 import logging
+import os
 import sqlite3
 import threading
 from collections.abc import Callable, Iterable, Iterator
@@ -41,6 +42,7 @@ class Database:
         folder_time: by which old things in the data folder go.
         damage: says that the file is damaged, and how to get back; nothing is written to it then, since going
             back to a backup would lose it again. None where nothing of the kind is known.
+        is_new: whether there was no such file.
         row_damages: rows that could not be read, by table and number. All others are as they were.
         files: the files of the database.
         damaged: called, from any thread, once `damage` is set, and when there are new rows in `row_damages`.
@@ -58,6 +60,7 @@ class Database:
         self.damaged: Callable[[], None] = lambda: None
         self._looked_at: set[str] = set()
         self._lock = threading.Lock()
+        self.is_new = not os.path.exists(path)  # also where that cannot be looked at
         with ExitStack() as opened:
             opened.callback(DatabaseUse(path.parent).close)
             with self._sentences():

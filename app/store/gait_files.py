@@ -12,7 +12,7 @@ from pathlib import Path
 from app.documents.gait_json import gait_content
 from app.documents.stored_gait import StoredGait, stored_gait
 from app.store.backups import FOLDER as BACKUPS
-from app.store.plain_file import read_plain_file, write_atomically
+from app.store.plain_file import read_plain_file, sweep_partials, write_atomically
 from app.store.run_journal import FOLDER as RUNNING
 from app.store.storage_errors import file_error, left_undone
 from core.errors import InputError, StorageError
@@ -24,6 +24,8 @@ MOST_FILE_BYTES = 16_000_000
 _ORDER = ".order"
 """File in the trash: ids of the gaits in it, the last deleted last."""
 
+_WRITER = re.compile(r"\.([0-9]{1,9})\.partial$")
+"""The process that writes a file, in its name."""
 _ID = re.compile(r"[a-z0-9][a-z0-9-]{0,79}")
 
 SET_ASIDE, PHOTOS, ATLASES = "set-aside", "trial-photos", "atlases"
@@ -60,12 +62,11 @@ def _stamp(entry: Path | os.DirEntry[str]) -> tuple[int, int] | None:
     return state.st_mtime_ns, state.st_size
 
 
-def _sweep(folder: Path) -> None:
-    """Takes away what a killed program had half written; what counts are the whole files beside it."""
-    for partial in folder.glob(".*.partial"):
-        writer = partial.name.split(".")[-2]
-        if not (writer.isdigit() and _is_running(int(writer))):
-            partial.unlink(missing_ok=True)
+def _is_abandoned(partial: Path, state: os.stat_result) -> bool:
+    """Whether the program that wrote a file, whose number its name has, is gone."""
+    del state
+    writer = _WRITER.search(partial.name)
+    return writer is None or not _is_running(int(writer[1]))
 
 
 def _is_running(process: int) -> bool:
@@ -129,7 +130,7 @@ class GaitFiles:
         self._aside = data / SET_ASIDE
         for folder in (data, self._gaits, self._trash):
             require_folder(folder)
-        _sweep(self._gaits)
+        sweep_partials(self._gaits, _is_abandoned)
 
     def stamps(self) -> dict[str, tuple[int, int]]:
         """Every saved gait's id with what changes whenever its file does: time in ns, and size."""
@@ -144,7 +145,8 @@ class GaitFiles:
     def misnamed(self) -> tuple[str, ...]:
         """JSON files whose names are no ids, so that no gait can be opened from them."""
         names = (entry.name for entry in self._entries())
-        return tuple(sorted(name for name in names if not self.is_id(name.removesuffix(".json"))))
+        misnamed = sorted(name for name in names if not self.is_id(name.removesuffix(".json")))
+        return tuple(os.fsencode(name).decode(errors="backslashreplace") for name in misnamed)
 
     def _entries(self) -> list[os.DirEntry[str]]:
         """The JSON files in the folder of gaits.
@@ -169,14 +171,14 @@ class GaitFiles:
     def deleted_ids(self) -> tuple[str, ...]:
         """Ids of gaits in the trash, the last deleted first."""
         order = {gait_id: place for place, gait_id in enumerate(self._deleted_order())}
-        ids = (path.stem for path in self._trash.glob("*.json"))
+        ids = (path.stem for path in self._trash.glob("*.json") if self.is_id(path.stem))
         return tuple(sorted(ids, key=lambda one: (order.get(one, -1), self.deleted_at(one)), reverse=True))
 
     def _deleted_order(self) -> list[str]:
         """Ids in the order in which they were deleted; the time of a file is of a clock that may be set."""
         try:
             return read_plain_file(self._trash / _ORDER, MOST_FILE_BYTES).decode().split()
-        except (FileNotFoundError, UnicodeDecodeError):
+        except (FileNotFoundError, UnicodeDecodeError, InputError):
             return []
 
     def deleted(self, gait_id: str) -> Gait:

@@ -50,6 +50,20 @@ def read_plain_file(path: Path, most: int) -> bytes:
     return content
 
 
+def sweep_partials(folder: Path, is_abandoned: Callable[[Path, os.stat_result], bool]) -> None:
+    """Takes away what a killed program had half written; what is no plain file stays.
+
+    Args:
+        folder: with names as of `write_atomically`.
+        is_abandoned: whether nobody writes a file any more, from its path and state.
+    """
+    for path in folder.glob(".*.partial*"):
+        with suppress(OSError):  # it was taken away meanwhile, or may not be
+            state = path.lstat()
+            if stat.S_ISREG(state.st_mode) and is_abandoned(path, state):
+                path.unlink()
+
+
 def write_atomically(
     path: Path,
     content: str | bytes,
@@ -135,4 +149,4 @@ def _why_not_opened(path: Path, error: OSError) -> str:
 def _no_file(path: Path, mode: int) -> str:
     kinds = {stat.S_IFDIR: "folder", stat.S_IFIFO: "pipe", stat.S_IFSOCK: "socket"}
     kind = kinds.get(stat.S_IFMT(mode), "device")
-    return f"{path.name} is a {kind}, no gait file. Move it elsewhere."
+    return f"{path.name} is a {kind}, no plain file. Move it elsewhere."

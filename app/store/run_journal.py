@@ -6,19 +6,24 @@ unlocks it however that ends; so it also says whether a run is still under way.
 
 import fcntl
 import logging
+import math
 import os
+import stat
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
+from typing import BinaryIO
 
 logger = logging.getLogger(__name__)
 
 FOLDER = "running"
 """Where the journals are in a data folder."""
 
+MOST_ENTRY = 16_000_000
+"""Bytes that an entry may have."""
 _HEAD = struct.Struct("<BdI")
 """Kind, time in s, length of what follows in bytes."""
 
@@ -95,18 +100,30 @@ def abandoned_journal(data: Path, run: str) -> Iterator[tuple[Entry, ...] | None
     """
     path = _path(data, run)
     try:
-        file = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
-    except OSError:
+        # Opened without O_NONBLOCK, a pipe would wait for somebody who writes into it.
+        file = os.fdopen(os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC), "rb")
+    except OSError:  # a folder is none either
         yield ()
         return
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        yield _read(path.read_bytes())
+    with file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            yield ()
+            return
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            yield None
+            return
+        yield tuple(_read(file))
         path.unlink(missing_ok=True)
-    except BlockingIOError:
-        yield None
-    finally:
-        os.close(file)
+
+
+def has_entries(data: Path, run: str) -> bool:
+    """Whether anything stands in the journal of a run, whoever writes it."""
+    try:
+        return _path(data, run).stat().st_size > 0
+    except OSError:
+        return False
 
 
 def journalled_runs(data: Path) -> list[str]:
@@ -115,7 +132,7 @@ def journalled_runs(data: Path) -> list[str]:
     Args:
         data: the data folder.
     """
-    return sorted(path.stem for path in (data / FOLDER).glob("*.journal"))
+    return sorted(path.stem for path in (data / FOLDER).glob("*.journal") if path.stem.isascii())
 
 
 def _new_locked(path: Path) -> int:
@@ -132,17 +149,16 @@ def _new_locked(path: Path) -> int:
         os.close(file)
 
 
-def _read(content: bytes) -> tuple[Entry, ...]:
+def _read(file: BinaryIO) -> Iterator[Entry]:
     """The entries up to the first that is none: a loss of power may leave zeros at a file's end."""
-    entries, place = [], 0
-    while place + _HEAD.size <= len(content):
-        kind, time, length = _HEAD.unpack_from(content, place)
-        if kind > max(EntryKind) or not length:
-            break
-        place += _HEAD.size + length
-        if place <= len(content):
-            entries.append(Entry(EntryKind(kind), time, content[place - length : place]))
-    return tuple(entries)
+    while len(head := file.read(_HEAD.size)) == _HEAD.size:
+        kind, time, length = _HEAD.unpack(head)
+        if kind > max(EntryKind) or not 0 < length <= MOST_ENTRY or not math.isfinite(time):
+            return
+        data = file.read(length)
+        if len(data) < length:
+            return
+        yield Entry(EntryKind(kind), time, data)
 
 
 def _path(data: Path, run: str) -> Path:

@@ -88,5 +88,5 @@ def left_undone(what: str) -> Iterator[None]:
         yield
     except StorageDamagedError:  # what is damaged was logged when it was found
         logger.warning("%s, since the database is damaged.", what)
-    except StorageError as error:
+    except (StorageError, InputError) as error:
         logger.warning("%s. %s", what, error.sentence)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from app.common.json import Json
-from app.store.backups import DAILY, found_backups, make_backup
+from app.store.backups import DAILY, found_backups, make_backup, way_back
 from app.store.database import Database
 from app.store.quick_check import damage_of
 from app.store.storage_errors import left_undone
@@ -42,6 +42,7 @@ class DatabaseKeeper:
         self._may_copy = may_copy
         self._time = database.folder_time
         self._trouble: str | None = None
+        self._missing = _missing_sentence(database)
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._work, name="database keeper", daemon=True)
         database.damaged = self._tell
@@ -61,7 +62,7 @@ class DatabaseKeeper:
             Whether the file is damaged, and a sentence or None; where rows cannot be read, these as well.
         """
         damage, unreadable = self._database.damage, self.unreadable.view()
-        sentence = damage or self._trouble or _row_sentence(unreadable["count"])
+        sentence = damage or self._missing or self._trouble or _row_sentence(unreadable["count"])
         view = {"damaged": damage is not None, "sentence": sentence}
         return {**view, "unreadable": unreadable} if unreadable["count"] else view
 
@@ -142,6 +143,16 @@ class DatabaseKeeper:
 
     def _tell(self) -> None:
         self._changed(self.view())
+
+
+def _missing_sentence(database: Database) -> str | None:
+    """A new database beside backups of another one: that one was taken away."""
+    folder = database.path.parent
+    if not database.is_new or not found_backups(folder):
+        return None
+    sentence = f"The database {database.path} was not there when the studio started, and a new one was made."
+    logger.warning("%s", f"{sentence} {way_back(folder)}")
+    return f"{sentence} {way_back(folder)}"
 
 
 def _row_sentence(count: int) -> str | None:

@@ -9,7 +9,7 @@ from typing import Any
 from app.common.json import Json
 from app.store.database import Database
 from app.store.gait_files import PHOTOS, require_folder
-from app.store.plain_file import write_atomically
+from app.store.plain_file import read_plain_file, write_atomically
 from app.store.tables.photo_store import PhotoStore
 from app.trials.service import TrialService
 from app.vision.services import VisionServices, ask
@@ -123,9 +123,9 @@ class TrialPhotos:
         """
         self._known(trial, photo)
         try:
-            return self._path(photo, is_small=is_small).read_bytes()
-        except OSError as error:
-            raise NotFoundError(f"The file of photo {photo} is gone: {error.strerror}.", "photo") from error
+            return read_plain_file(self._path(photo, is_small=is_small), MOST_BYTES)
+        except FileNotFoundError as error:
+            raise NotFoundError(f"The file of photo {photo} is gone.", "photo") from error
 
     def _known(self, trial: str, photo: str) -> dict[str, Any]:
         row = self._store.get(trial, photo)

@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 
 from app.store.gait_files import require_folder
+from app.store.plain_file import sweep_partials
 from core.errors import InputError, StateError
 
 MOST_BYTES = 4_000_000_000
@@ -102,8 +103,7 @@ class VideoFiles:
     def __init__(self, data: Path) -> None:
         self.folder = data / "videos"
         require_folder(self.folder)
-        for partial in self.folder.glob(".*.partial"):
-            partial.unlink(missing_ok=True)
+        sweep_partials(self.folder, lambda partial, state: True)
 
     def begin(self, video: str, name: str, size: int | None) -> Upload:
         """Starts an upload.

@@ -17,6 +17,7 @@ from core.gait.options import GaitOptions
 from core.gait.poses import Poses
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording
+from core.gait.step import require_step
 from core.motion.contact_timeline import ContactTimeline, drawn_samples, timeline_from_order
 from core.motion.heading_profile import HeadingProfile, heading_profile, return_knots
 from core.motion.trajectory import quarter_turn
@@ -32,8 +33,6 @@ from core.problem.resting_pose import resting_body
 from core.robot.model import RobotModel
 from core.segments.segment_table import SegmentTable
 
-MAX_STEP = 0.2
-"""Larger steps an iteration than any workspace here, m; a guard against mm given for m."""
 MOST_TIMES = 20
 """How often a part of a sequence may run."""
 MOST_PARTS = 40
@@ -111,16 +110,8 @@ class Gait:
                 "part, or make two sequences.",
                 "sequence",
             )
-        longest = np.inf if self.sequence else MAX_STEP
-        if not all(np.isfinite(self.step)):
-            raise InputError(f"The step is {self.step}; each of its numbers must be finite.", "step")
-        length = float(np.hypot(*self.step[:2]))
-        if length > longest:
-            raise InputError(
-                f"The step is {length * 1000:.4g} mm; it must be at most {MAX_STEP * 1000:.0f} mm an "
-                "iteration.",
-                "step",
-            )
+        parts = sum(part.times * part.gait.iterations for part in self.sequence)
+        require_step(self.step, parts or None)
         if sorted(self.order) != list(range(1, self.timeline.leg_count + 1)):
             raise InputError(
                 f"order is {list(self.order)}; it must name each foot 1 to {self.timeline.leg_count} once.",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats, frozen_floats
+from core.arrays import FARTHEST, Floats, frozen_floats
 from core.errors import InputError
 from core.robot.arms import ARM_GAP
 
@@ -55,15 +55,16 @@ class FoundPoses:
                 f"poses.found.step is {self.step:g} m; it must lie between 0 and 0.2 m.",
                 "poses.found.step",
             )
-        bodies = frozen_floats(self.bodies, (None, 3), "poses.found.bodies")
+        bodies = frozen_floats(self.bodies, (None, 3), "poses.found.bodies", FARTHEST)
         if not 2 <= len(bodies) <= MOST_POSES:
             raise InputError(
                 f"poses.found has {len(bodies)} poses; it needs 2 to {MOST_POSES}.", "poses.found.bodies"
             )
         object.__setattr__(self, "bodies", bodies)
-        object.__setattr__(self, "feet", frozen_floats(self.feet, (len(bodies), None, 3), "poses.found.feet"))
+        feet = frozen_floats(self.feet, (len(bodies), None, 3), "poses.found.feet", FARTHEST)
+        object.__setattr__(self, "feet", feet)
         if self.headings is not None:
-            headings = frozen_floats(self.headings, (len(bodies),), "poses.found.headings")
+            headings = frozen_floats(self.headings, (len(bodies),), "poses.found.headings", FARTHEST)
             object.__setattr__(self, "headings", headings)
 
     def __eq__(self, other: object) -> bool:

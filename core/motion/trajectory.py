@@ -4,10 +4,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import Bools, Floats, frozen_bools, frozen_floats
+from core.arrays import FARTHEST, Bools, Floats, frozen_bools, frozen_floats
 from core.errors import InputError
 from core.robot.kinematics import BodyPose, actuator_plane_pose, walker_strokes
 from core.robot.model import RobotModel
+
+LONGEST, SHORTEST_INTERVAL = 1e6, 1e-6
+"""A motion's last time is no later, and its samples are no nearer to each other, s."""
+FASTEST = FARTHEST / SHORTEST_INTERVAL
+"""Speeds beyond this are none between two samples, m/s."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,11 +43,15 @@ class Trajectory:
     contact_forces: Floats | None = None
 
     def __post_init__(self) -> None:
-        times = frozen_floats(self.times, (None,), "times")
+        times = frozen_floats(self.times, (None,), "times", LONGEST)
         n = times.shape[0]
-        if n < 2 or (np.diff(times) <= 0).any():
-            raise InputError("A trajectory needs at least two samples with increasing times.", "times")
-        feet = frozen_floats(self.feet_world, (n, None, 3), "feet")
+        if n < 2 or (np.diff(times) < SHORTEST_INTERVAL).any():
+            raise InputError(
+                "A trajectory needs at least two samples with increasing times, at least "
+                f"{SHORTEST_INTERVAL:g} s apart.",
+                "times",
+            )
+        feet = frozen_floats(self.feet_world, (n, None, 3), "feet", FARTHEST)
         legs = feet.shape[1]
         shapes = {
             "body_world": (n, 3),
@@ -57,7 +66,8 @@ class Trajectory:
         for name, shape in shapes.items():
             values = getattr(self, name)
             if values is not None:
-                object.__setattr__(self, name, frozen_floats(values, shape, name))
+                most = FASTEST if "velocity" in name else FARTHEST
+                object.__setattr__(self, name, frozen_floats(values, shape, name, most))
 
     @property
     def knot_count(self) -> int:

@@ -13,6 +13,7 @@ from core.gait.gait import Gait, heading_angle, heading_step
 from core.gait.poses import FoundPoses, Poses
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.trajectory import quarter_turn
+from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
 from core.pose_gaits.start_motion import MM, StartMotion
@@ -115,6 +116,23 @@ def found_gait(gait: Gait, model: RobotModel) -> PoseGait | None:
     if found is None or found.answers != asked_of(problem):
         return None
     return gait_of_poses(problem, found)
+
+
+def confirmed_gait(gait: Gait, model: RobotModel) -> PoseGait | None:
+    """The poses that were found for exactly what a gait asks, where the check confirms them; else None.
+
+    Raises:
+        InputError: as in `found_gait`, or the document's timeline says other feet in the air than its poses.
+    """
+    found = found_gait(gait, model)
+    if found is None or not check_poses(found).confirmed:
+        return None
+    if not np.array_equal(gait.timeline.stance, ~found.problem.airborne.T):
+        raise InputError(
+            f"The timeline of “{gait.name}” has other feet in the air than its poses. Solve the gait again.",
+            "timeline",
+        )
+    return found
 
 
 def gait_of_poses(problem: PoseProblem, found: FoundPoses) -> PoseGait:

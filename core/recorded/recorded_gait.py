@@ -9,6 +9,7 @@ from core.errors import InputError
 from core.gait.gait import Gait, Orientation, is_drawn
 from core.gait.held_feet import HeldFeet, held_sentence
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS
+from core.gait.step import without_rounding
 from core.motion.contact_timeline import SAME_INTERVAL, ContactTimeline
 from core.motion.trajectory import Trajectory, quarter_turn
 from core.robot.model import ROBOT_NAMES, load_robot
@@ -110,7 +111,7 @@ def _describe(
         orientation=orientation,
         direction=direction,
         order=tuple((foot - shift) % legs + 1 for foot in own_order),
-        step=(float(dx), float(dy), turn / iterations),
+        step=without_rounding((float(dx), float(dy), turn / iterations)),
         iterations=iterations,
         timeline=timeline,
         notes=" ".join((*remarks, *remark)),

@@ -17,8 +17,6 @@ from core.wire.waypoints import Waypoints
 
 SAME_DURATION = 1e-4
 """Durations in files have 4 decimals; those that differ by no more are the same, s."""
-MOST_STROKE = 0.2
-"""Longer strokes than any motor here makes, m; a guard against a slip of the pen in a file."""
 USUAL_INTERVAL = 0.4
 """Time between waypoints where none is given, s."""
 
@@ -72,7 +70,6 @@ def motion_of_waypoints(model: RobotModel, waypoints: Waypoints) -> WaypointMoti
             "some out, or cut the file into several.",
             "waypoints",
         )
-    _require_strokes(waypoints.strokes)
     feet_robot = feet_in_robot(model, waypoints.strokes)
     _require_assembled(feet_robot)
     heights = feet_robot[..., 2]
@@ -89,18 +86,6 @@ def motion_of_waypoints(model: RobotModel, waypoints: Waypoints) -> WaypointMoti
     trajectory = Trajectory(times, body, ground.headings, feet, standing, *velocities)
     stands = f"A foot stands where it is within {STANDING_DEPTH * 1000:.1f} mm of the deepest one."
     return WaypointMotion(trajectory, (stands, how, *timing))
-
-
-def _require_strokes(strokes: Floats) -> None:
-    beyond = np.argwhere(np.abs(strokes) > MOST_STROKE)
-    if beyond.size:
-        row, foot, motor = (int(i) for i in beyond[0])
-        value_mm = strokes[row, foot, motor] * 1000
-        raise InputError(
-            f"Waypoint {row + 1}, motor {motor + 1} of foot {foot + 1}: {value_mm:g} mm "
-            f"is no stroke; it must lie within ±{MOST_STROKE * 1000:g} mm.",
-            f"waypoint {row + 1}",
-        )
 
 
 def _require_assembled(feet_module: Floats) -> None:

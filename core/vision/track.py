@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Bools, Floats, frozen_bools, frozen_floats, stretches
+from core.arrays import FARTHEST, Bools, Floats, frozen_bools, frozen_floats, stretches
 from core.errors import InputError
 
 
@@ -31,7 +31,7 @@ class FootTrack:
         times = frozen_floats(self.times, (None,), "times")
         if times.size < 2 or (np.diff(times) <= 0).any():
             raise InputError("A track needs at least two frames with increasing times.", "times")
-        feet = frozen_floats(self.feet, (times.size, None, 2), "feet")
+        feet = frozen_floats(self.feet, (times.size, None, 2), "feet", FARTHEST)
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "feet", feet)
         object.__setattr__(self, "filled", frozen_bools(self.filled, feet.shape[:2], "filled"))

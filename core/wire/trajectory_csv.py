@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from core.arrays import Bools, Floats, frozen_floats
+from core.arrays import FARTHEST, Bools, Floats, frozen_floats
 from core.errors import InputError
 from core.motion.trajectory import Trajectory, difference_velocities, turned_about_body
 from core.text.decoding import without_mark
@@ -35,8 +35,6 @@ VERSIONS = {WORLD_AXES: 1, BODY_AXES: 2}
 """Version of the companion by its feet's axes; programs that know only version 1 then assume heading 0."""
 DEFAULT_INTERVAL = 0.4
 """Time between knots where no companion says otherwise, s."""
-FARTHEST = 10_000.0
-"""Numbers beyond this are no m or m/s of a gait; a guard against a slip of the pen in a file."""
 RINGS = (4, 6, 12)
 """Numbers of feet that a file may have without a companion; how many rows it has tells which."""
 STANDING_HEIGHT = 0.00025 + 1e-6
@@ -254,7 +252,8 @@ def _headed(trajectory: Trajectory, companion: dict[str, Any]) -> Trajectory:
         raise ValueError(f"feet_axes is {as_written(axes)}; it must be one of {', '.join(VERSIONS)}")
     if axes == WORLD_AXES:
         return replace(trajectory, heading=heading)
-    return turned_about_body(trajectory, frozen_floats(heading, (trajectory.knot_count,), "heading"))
+    turns = frozen_floats(heading, (trajectory.knot_count,), "heading", FARTHEST)
+    return turned_about_body(trajectory, turns)
 
 
 def standing_feet(feet: Floats) -> Bools:

@@ -16,6 +16,12 @@ _BEGINNING = re.compile(
     r'\s*(?:"?sep=.[^\r\n]*[\r\n]+)?(?:[^,;\t\r\n]*[,;\t])?\s*"?duration_s\b', re.IGNORECASE
 )
 """How a waypoint file begins; a column that counts the rows may stand first."""
+MOST_WAYPOINTS = 20_000
+"""Waypoints of the longest run, which takes the robot hours."""
+MOST_STROKE = 0.2
+"""Longer strokes than any motor here makes, m; a guard against a slip of the pen in a file."""
+MOST_SECONDS = 1e12
+"""A longer duration is no time, s; the check says which of the others no message can carry."""
 MM_DECIMALS = 4
 """Decimals of a millimetre in files and on the wire (docs/firmware.md)."""
 
@@ -34,11 +40,18 @@ class Waypoints:
 
     def __post_init__(self) -> None:
         strokes = frozen_floats(self.strokes, (None, None, 3), "strokes")
-        durations = frozen_floats(self.durations, (strokes.shape[0],), "durations")
+        durations = frozen_floats(self.durations, (strokes.shape[0],), "durations", MOST_SECONDS)
         if strokes.shape[0] == 0:
             raise InputError("There is no waypoint; a run needs at least one.", "waypoints")
+        if strokes.shape[0] > MOST_WAYPOINTS:
+            raise InputError(
+                f"There are {strokes.shape[0]} waypoints; at most {MOST_WAYPOINTS} are read. Cut them into "
+                "several files.",
+                "waypoints",
+            )
         if (durations < 0).any():
             raise InputError("A duration is negative; durations are at least 0 s.", "duration_s")
+        _require_strokes(strokes)
         object.__setattr__(self, "strokes", strokes)
         object.__setattr__(self, "durations", durations)
 
@@ -57,6 +70,18 @@ class Waypoints:
     def content_hash(self) -> str:
         """SHA-256 of the waypoint file's text: what is approved is exactly what is sent."""
         return hashlib.sha256(format_waypoint_csv(self).encode()).hexdigest()
+
+
+def _require_strokes(strokes: Floats) -> None:
+    beyond = np.argwhere(np.abs(strokes) > MOST_STROKE)
+    if beyond.size:
+        row, foot, motor = (int(i) for i in beyond[0])
+        value_mm = float(strokes[row, foot, motor]) * 1000
+        raise InputError(
+            f"Waypoint {row + 1}, motor {motor + 1} of foot {foot + 1}: {value_mm:g} mm "
+            f"is no stroke; it must lie within ±{MOST_STROKE * 1000:g} mm.",
+            f"waypoint {row + 1}",
+        )
 
 
 def format_waypoint_csv(waypoints: Waypoints) -> str:

@@ -51,8 +51,8 @@ def _required(rule: list[str], value: Any) -> Iterator[str]:
 
 
 def _length(sign: int, rule: int, value: Any) -> Iterator[str]:
-    if isinstance(value, list) and sign * len(value) < sign * rule:
-        yield f"has {len(value)} items"
+    if isinstance(value, list | str | dict) and sign * len(value) < sign * rule:
+        yield f"has the length {len(value)}"
 
 
 def _bound(sign: int, rule: float, value: Any) -> Iterator[str]:
@@ -67,6 +67,8 @@ _JUDGES: dict[str, Callable[[Any, Any], Iterator[str]]] = {
     "required": _required,
     "minItems": lambda rule, value: _length(1, rule, value),
     "maxItems": lambda rule, value: _length(-1, rule, value),
+    "maxLength": lambda rule, value: _length(-1, rule, value),
+    "maxProperties": lambda rule, value: _length(-1, rule, value),
     "minimum": lambda rule, value: _bound(1, rule, value),
     "maximum": lambda rule, value: _bound(-1, rule, value),
 }

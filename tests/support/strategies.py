@@ -13,6 +13,7 @@ from core.gait.held_feet import HeldFeet
 from core.gait.options import GaitOptions
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording, RecordingForm
+from core.gait.step import without_rounding
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.heading_profile import HeadingProfile
 from core.names import is_visible
@@ -144,7 +145,7 @@ def gaits(draw: st.DrawFn) -> Gait:
         orientation=draw(st.sampled_from(Orientation)),
         direction=draw(st.integers(1, 4)),
         order=tuple(draw(st.permutations(range(1, legs + 1)))),
-        step=(draw(LENGTH), draw(LENGTH), draw(st.floats(-np.pi, np.pi))),
+        step=without_rounding((draw(LENGTH), draw(LENGTH), draw(st.floats(-np.pi, np.pi)))),
         iterations=draw(st.integers(1, 20)),
         timeline=draw(timelines(legs)),
         options=draw(options()),

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from app.common.json import Json
 from app.store.database import Database
@@ -22,11 +23,6 @@ class TrialRow:
 
     def __post_init__(self) -> None:
         key_of(self, self.content, "id")
-        ends = self.content.get("ends")
-        if ends is not None and len(ends) != self.content["iterations"]:
-            raise ShapeError(
-                "content.ends", f"has {len(ends)} ends of {self.content['iterations']} iterations"
-            )
 
     @property
     def is_deleted(self) -> bool:
@@ -34,12 +30,20 @@ class TrialRow:
         return self.deleted is not None
 
 
+def _trial(**columns: Any) -> TrialRow:
+    row = TrialRow(**columns)
+    ends, count = row.content.get("ends"), row.content["iterations"]
+    if ends is not None and len(ends) != count:
+        raise ShapeError("content.ends", f"has {len(ends)} ends of {count} iterations")
+    return row
+
+
 TRIALS = TableKind(
     "trial",
     "trial",
     ("id",),
     {"id": text, "content": Stored(TRIAL), "track": text, "deleted": Maybe(MOMENT)},
-    TrialRow,
+    _trial,
 )
 
 

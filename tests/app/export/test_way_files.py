@@ -19,6 +19,7 @@ from core.robot.model import load_robot
 from core.wire.waypoint_companion import WaypointCompanion, format_waypoint_companion
 from core.wire.waypoints import Waypoints, format_waypoint_csv
 from tests.support.command import run
+from tests.support.hostile_files import NO_FILES
 
 
 def written(folder: Path, robot: str) -> Path:
@@ -121,3 +122,17 @@ def test_wrong_numbers_of_waypoints_are_refused(
     companion_path(path).write_text(json.dumps(content))
     with pytest.raises(InputError, match="all_feet_down"):
         read_way_file(path)
+
+
+@pytest.mark.parametrize("kind", ["folder", "pipe", "socket", "dangling", "loop", "device"])
+@pytest.mark.parametrize("command", ["check", "waypoints", "import"])
+def test_a_companion_that_is_no_file_is_refused_at_once(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, kind: str, command: str
+) -> None:
+    motion = tmp_path / "m.csv"
+    assert run(capsys, "manual", "walk", "--version", "0", "-o", str(motion))[0] == 0
+    companion_path(motion).unlink()
+    NO_FILES[kind](companion_path(motion))
+    status, *said = run(capsys, command, str(motion))
+    assert status == 2
+    assert "is no file" in "".join(said)

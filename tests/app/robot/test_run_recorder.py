@@ -231,6 +231,31 @@ def test_an_entry_that_was_cut_off_is_left_out(database: Database) -> None:
     assert (piece.time, piece.direction, piece.data) == (11.0, "from robot", b"whole")
 
 
+@pytest.mark.parametrize(
+    "entry",
+    [
+        Entry(EntryKind.END, 12.0, b"{}"),
+        Entry(EntryKind.END, 12.0, b'{"id": "r", "state": 7}'),
+        Entry(EntryKind.END, 12.0, b"[" * 100_000),
+        Entry(EntryKind.END, 12.0, b'{"id": NaN}'),
+        Entry(EntryKind.STATE, 12.0, b"[1, 2]"),
+        Entry(EntryKind.STATE, 12.0, b'["a", "b", "\\ud800"]'),
+        Entry(EntryKind.STATE, 12.0, b"\xff"),
+        Entry(EntryKind.FROM_ROBOT, float("nan"), b"j,"),
+    ],
+)
+def test_a_damaged_entry_of_a_journal_leaves_the_run_interrupted(database: Database, entry: Entry) -> None:
+    RunStore(database).begin(RECORD, None)
+    journal = RunJournal(database.path.parent, "r")
+    journal.add(entry)
+    journal.close(is_in_database=False)
+    end_abandoned(database)
+    row = RunStore(database).get("r")
+    assert row is not None
+    assert row.content["state"] == "interrupted"
+    assert journals(database) == []
+
+
 @pytest.mark.parametrize("state", [None, "done"])
 def test_a_kill_before_the_record_began_or_after_it_was_whole_leaves_no_journal(
     database: Database, state: str | None

@@ -24,6 +24,7 @@ from app.trials.report.service import TrialReportService
 from app.trials.service import TrialDescription, TrialService
 from app.trials.simulated_feet import TrialSimulations
 from app.vision.services import VisionServices
+from core.arrays import FARTHEST
 from core.errors import NotFoundError
 from core.vision.track import FootTrack
 from solver_jobs import Simulator
@@ -187,7 +188,7 @@ def test_a_broken_line_has_pieces_and_gaps_of_their_lengths_round_corners() -> N
 
 def test_ways_that_go_far_have_a_wider_grid() -> None:
     counts = []
-    for metres in (0.1, 1e7):
+    for metres in (0.1, FARTHEST):
         feet = np.zeros((2, 4, 2))
         feet[1, :, 0] = metres
         track = FootTrack(np.array([0.0, 1.0]), feet, np.zeros((2, 4), dtype=np.bool_))

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import io
+import zipfile
 from contextlib import suppress
 from dataclasses import fields
+from typing import Any
 
 import numpy as np
 import pytest
@@ -112,4 +114,56 @@ def test_a_file_that_is_one_array_is_refused() -> None:
     buffer = io.BytesIO()
     np.save(buffer, np.zeros(3))
     with pytest.raises(InputError, match="is not an NPZ"):
+        parse_npz(buffer.getvalue())
+
+
+def _archive(name: str, shape: tuple[int, ...], held: bytes) -> bytes:
+    """A motion of which one array says that it has a shape, and holds these bytes."""
+    with np.load(io.BytesIO(format_npz(STANDING))) as archive:
+        arrays = {key: archive[key] for key in archive.files}
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
+        for key, array in arrays.items():
+            part = io.BytesIO()
+            if key == name:
+                head = {"descr": "<f8", "fortran_order": False, "shape": shape}
+                np.lib.format.write_array_header_1_0(part, head)
+                part.write(held)
+            else:
+                np.save(part, array)
+            file.writestr(f"{key}.npy", part.getvalue())
+    return buffer.getvalue()
+
+
+STANDING = MotionFile(
+    Trajectory(np.arange(3.0), np.zeros((3, 3)), np.zeros(3), np.zeros((3, 4, 3)), np.ones((3, 4), bool)),
+    np.zeros((3, 4, 3)),
+    "standing",
+    ("1", "2", "3", "4"),
+)
+
+
+@pytest.mark.parametrize("shape", [(10**12,), (10**6, 10**6), (2**40, 4, 3), (-1,), (0,), (2**63, 2**63), ()])
+def test_an_array_that_is_not_as_long_as_it_says_is_refused(shape: tuple[int, ...]) -> None:
+    with pytest.raises(InputError, match="says that it has the shape"):
+        parse_npz(_archive("times", shape, b"\0" * 24 if shape else b""))
+
+
+def test_an_archive_that_unpacks_to_gigabytes_is_refused_unpacked() -> None:
+    with pytest.raises(InputError, match=r"unpacks to .* MB; at most 100 MB are read"):
+        parse_npz(_archive("feet_world", (101_000_000 // 8,), bytes(101_000_000)))
+
+
+@pytest.mark.parametrize("key", ["times", "body_world", "contact", "strokes", "version", "feet", "format"])
+@pytest.mark.parametrize(
+    "value",
+    [np.array("x"), np.array(["a", "b"]), np.zeros((3, 4, 3), complex), np.array([]), np.zeros(3, "M8[s]")],
+    ids=["text", "texts", "complex", "empty", "dates"],
+)
+def test_an_array_of_another_kind_is_refused(key: str, value: np.ndarray[Any, Any]) -> None:
+    with np.load(io.BytesIO(format_npz(STANDING))) as archive:
+        arrays = {name: archive[name] for name in archive.files}
+    buffer = io.BytesIO()
+    np.savez(buffer, **{**arrays, key: value})
+    with pytest.raises(InputError):
         parse_npz(buffer.getvalue())

@@ -17,6 +17,7 @@ from core.errors import InputError
 from core.gait.gait import Gait, Orientation, drawn_timeline
 from core.gait.held_feet import HeldFeet
 from core.gait.poses import PinnedPose
+from core.gait.step import without_rounding
 from core.library.library import library
 from core.library.new_gait import with_robot
 from core.motion.contact_timeline import timeline_from_rows
@@ -54,7 +55,7 @@ DRAWN = st.builds(
             order=order,
             direction=direction,
             iterations=iterations,
-            step=(step, 0.001, turn if iterations == 1 else 0.0),
+            step=without_rounding((step, 0.001, turn if iterations == 1 else 0.0)),
         ).with_options(phase_knots=phase, merge=merge, margin=0.004)
     ),
     st.permutations([1, 2, 3, 4]).map(tuple),

@@ -78,3 +78,16 @@ GOOD = "0.4," + ",".join(["5.0000"] * 12)
 def test_malformed_waypoint_files_are_refused_by_line_and_column(text: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
         parse_waypoint_csv(text, name="way.csv")
+
+
+@pytest.mark.parametrize("stroke", [1e308, -1e308, 0.21, 10.0])
+def test_a_number_that_is_no_stroke_is_no_waypoint(stroke: float) -> None:
+    strokes = np.full((2, 4, 3), 0.01)
+    strokes[1, 2, 0] = stroke
+    with pytest.raises(InputError, match=r"Waypoint 2, motor 1 of foot 3: .* is no stroke"):
+        Waypoints(strokes, np.ones(2))
+
+
+def test_more_waypoints_than_a_run_has_are_refused() -> None:
+    with pytest.raises(InputError, match="20001 waypoints; at most 20000"):
+        Waypoints(np.zeros((20_001, 4, 3)), np.ones(20_001))

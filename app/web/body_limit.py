@@ -19,6 +19,9 @@ LARGE_BYTES = 65_536
 REST_SECONDS = 0.1
 """Between two large bodies, s."""
 
+TURN_SECONDS = 1.0
+"""A large body is read by then; a request that works on goes on beside others, s."""
+
 STREAMED = frozenset({("POST", "/api/videos")})
 """Requests whose bodies go to the disk as they come, and have a limit of their own."""
 
@@ -71,6 +74,7 @@ class BodyLimit:
             if is_whole and size.bytes > LARGE_BYTES and not has_turn:
                 await self._turn.acquire()
                 has_turn = True
+                asyncio.get_running_loop().call_later(TURN_SECONDS, end_turn)
                 await asyncio.sleep(max(0.0, self._rest_ends - time.monotonic()))
             return message
 

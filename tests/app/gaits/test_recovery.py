@@ -15,6 +15,7 @@ from app.gaits.recovery import LAST_LABEL, ORIGINAL_LABEL, WayOut
 from app.gaits.service import GaitService
 from app.gaits.summaries import GaitSummaries
 from app.store.database import Database
+from app.store.tables.unreadable import Unreadable
 from core.errors import InputError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
@@ -247,6 +248,47 @@ def test_a_history_that_is_lost_has_the_same_way_out(
     assert line(service, lost)["way_out"] == ("original" if is_builtin else "last")
     assert service.recover(lost).gait.notes == ""
     assert reopened(tmp_path, database).open_gait(lost).gait.notes == ""
+
+
+@pytest.mark.parametrize("column", ["label", "page", "name", "edit"])
+def test_a_step_whose_words_were_damaged_keeps_its_document(
+    column: str, gait_id: str, tmp_path: Path, database: Database
+) -> None:
+    last = noted(reopened(tmp_path, database), gait_id, "Kept.")
+    with database.writing() as connection:
+        connection.execute(f"UPDATE history SET {column}=x'ff' WHERE gait=?", (gait_id,))
+    assert reopened(tmp_path, database).open_gait(gait_id).gait == last
+
+
+@pytest.mark.parametrize("column", ["revision", "last", "done", "notice", "revoked"])
+def test_an_editing_state_that_was_damaged_loses_no_document(
+    column: str, gait_id: str, tmp_path: Path, database: Database
+) -> None:
+    last = noted(reopened(tmp_path, database), gait_id, "Kept.")
+    with database.writing() as connection:
+        connection.execute(f"UPDATE open_gait SET {column}=x'ff' WHERE gait=?", (gait_id,))
+    with pytest.raises(StateError, match="Go back to the last state"):
+        Unreadable(database).set_aside("open_gait", 1)
+    service = reopened(tmp_path, database)
+    assert line(service, gait_id)["way_out"] == WayOut.LAST
+    recovered = service.recover(gait_id)
+    assert (recovered.gait, recovered.revision > 1) == (last, True)
+
+
+def test_a_document_that_is_no_text_is_set_aside_by_the_way_out(
+    gait_id: str, tmp_path: Path, database: Database
+) -> None:
+    before = noted(reopened(tmp_path, database), gait_id, "Kept.")
+    noted(reopened(tmp_path, database), gait_id, "Spoilt.")
+    with database.writing() as connection:
+        last = "SELECT max(position) FROM history WHERE gait=:gait"
+        connection.execute(
+            f"UPDATE history SET document=x'ff' WHERE gait=:gait AND position=({last})", {"gait": gait_id}
+        )
+    service = reopened(tmp_path, database)
+    assert service.recover(gait_id).gait == before
+    [(name,)] = database.rows("SELECT name FROM set_aside")
+    assert name == "history"
 
 
 def test_undo_skips_nothing_where_another_edit_stands_in_between(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import sqlite3
+import time
 from contextlib import closing
 from copy import deepcopy
 from pathlib import Path
@@ -17,6 +18,7 @@ from app.store.database import DATABASE, Database
 from app.store.quick_check import reading
 from app.store.tables.job_store import JobStore
 from app.store.tables.result_store import ResultStore
+from app.store.tables.run_store import RunStore
 from app.store.tables.run_writer import RunWriter
 from app.store.tables.unreadable import Unreadable
 from app.studio import studio as studio_module
@@ -245,3 +247,33 @@ def test_a_database_that_is_taken_away_takes_no_write_and_loses_none(tmp_path: P
         if "cut off" not in database.damage and "emptied" not in database.damage:
             assert {*map(str, range(20)), "last"} <= kept
         writer.close()
+
+
+def test_a_write_that_changes_nothing_finds_no_fault(tmp_path: Path) -> None:
+    path = tmp_path / DATABASE
+    with closing(Database(path)) as database:
+        ResultStore(database).put("kept", {})
+    with closing(Database(path)) as database:
+        assert not RunStore(database).put_deleted("no such run", 1.0)
+        with closing(sqlite3.connect(path)) as other:
+            other.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        assert not RunStore(database).put_deleted("no such run", 1.0)
+        ResultStore(database).put("kept too", {})
+        with closing(sqlite3.connect(path, isolation_level=None)) as other:
+            other.execute("VACUUM")
+        ResultStore(database).put("kept as well", {})
+        assert database.damage is None
+
+
+def test_a_thousand_damaged_rows_delay_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / DATABASE
+    Database(path).close()
+    with closing(sqlite3.connect(path)) as connection, connection:
+        rows = [(f"r{number}", "{" + "x" * 2000) for number in range(1000)]
+        connection.executemany("INSERT INTO run(id, started, content) VALUES(?, 1.0, ?)", rows)
+    begun = time.process_time()
+    with client_of(tmp_path, monkeypatch) as (client, opened):
+        Unreadable(opened).look(lambda: True)
+        assert client.get("/api/health").json()["storage"]["unreadable"]["count"] == 1000
+        assert len(client.get("/api/runs?most=200").json()["unreadable"]) == 200
+    assert time.process_time() - begun < 20.0

@@ -50,6 +50,12 @@ def read_plain_file(path: Path, most: int) -> bytes:
     return content
 
 
+def link_refusal(path: Path) -> InputError:
+    """The refusal of a symbolic link where a file should be."""
+    sentence = f"{path.name} is a symbolic link, which is not followed. Put the file itself in its place."
+    return InputError(sentence, path.name)
+
+
 def write_atomically(
     path: Path,
     content: str | bytes,
@@ -126,7 +132,7 @@ def _take_over(path: Path, file: int) -> None:
 
 def _why_not_opened(path: Path, error: OSError) -> str:
     if error.errno == errno.ELOOP:
-        return f"{path.name} is a symbolic link, which is not followed. Put the file itself in its place."
+        return link_refusal(path).sentence
     if error.errno == errno.ENXIO:
         return _no_file(path, stat.S_IFSOCK)
     return f"{path.name} cannot be read: {error.strerror}. Give the studio the right to read it."

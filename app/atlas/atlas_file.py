@@ -72,6 +72,7 @@ class AtlasFile:
         path: the file.
         space: of a file that is made, or that has to hold this space; None to take that of the file.
         adds: whether rows are added without a `space`; a file that is only read is opened so.
+        follows_link: whether the path may be a symbolic link.
 
     Attributes:
         space: what its gaits are drawn from.
@@ -83,19 +84,21 @@ class AtlasFile:
         StorageError: the disk does not take it.
     """
 
-    def __init__(self, path: Path, space: AtlasSpace | None = None, *, adds: bool = False) -> None:
+    def __init__(
+        self, path: Path, space: AtlasSpace | None = None, *, adds: bool = False, follows_link: bool = True
+    ) -> None:
         self.path = path
         self._lock = threading.Lock()
         makes, adds = space is not None, adds or space is not None
         with self._sentences():
-            self._real = real_path(path)
+            self._real = real_path(path, follows_link=follows_link)
             is_there = self._real.exists()
             if not (makes or is_there):
                 raise NotFoundError(f"There is no atlas {path}. Make one with footfall atlas run.", str(path))
             is_new = not is_there or self.size == 0
             # A file that is only read is not made where somebody has just taken it away.
             self._connection = guarded_connection(
-                path, WAIT_SECONDS if adds else READ_WAIT_SECONDS, adds=adds, makes=makes
+                path, self._real, WAIT_SECONDS if adds else READ_WAIT_SECONDS, adds=adds, makes=makes
             )
             try:
                 if is_new and space is not None:
@@ -188,16 +191,19 @@ class AtlasFile:
             yield row
 
     def entries(self, status: RowStatus | None = None) -> Iterator[tuple[AtlasRow, Json]]:
-        """Rows in the order of their numbers, each with its parameters as JSON content."""
-        wanted = ("AND status = ?", (status.value,)) if status is not None else ("", ())
-        query = f"SELECT {', '.join(_COLUMNS)} FROM gaits WHERE id > ? {wanted[0]} ORDER BY id LIMIT {PAGE}"
+        """Rows in the order of their numbers, each with its parameters as JSON content.
+
+        All rows are looked at, whichever are asked for: a file fits or does not, whoever reads it.
+
+        Raises:
+            InputError: a value of any row cannot be one of an atlas.
+        """
+        query = f"SELECT {', '.join(_COLUMNS)} FROM gaits WHERE id > ? ORDER BY id LIMIT {PAGE}"
         last, values = LEAST_NUMBER, StoredValues(self.path)
         while True:
             with self._reading(values) as connection:
-                found = [
-                    self._entry(stored, values) for stored in connection.execute(query, (last, *wanted[1]))
-                ]
-            yield from found
+                found = [self._entry(stored, values) for stored in connection.execute(query, (last,))]
+            yield from (entry for entry in found if status in (None, entry[0].status))
             if len(found) < PAGE:
                 return
             last = found[-1][0].number

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import quote
 
+from app.store.plain_file import link_refusal
 from core.errors import InputError
 
 MOST_BYTES = 8_000_000_000
@@ -40,13 +41,16 @@ _SCHEMA = frozenset({"sqlite_master", "sqlite_schema"})
 _TABLES = frozenset({"about", "gaits", "physics"})
 
 
-def guarded_connection(path: Path, wait_seconds: float, *, adds: bool, makes: bool) -> sqlite3.Connection:
+def guarded_connection(
+    path: Path, real: Path, wait_seconds: float, *, adds: bool, makes: bool
+) -> sqlite3.Connection:
     """Opens a file without reading it.
 
     Neither views, triggers, functions of the file nor other files are reached, whatever its tables are.
 
     Args:
-        path: the file.
+        path: the file, as a refusal calls it.
+        real: where it is.
         wait_seconds: how long another program may keep it.
         adds: whether rows are added; else it is opened to read, unless a run left a journal beside it.
         makes: whether it is made where there is none.
@@ -56,7 +60,6 @@ def guarded_connection(path: Path, wait_seconds: float, *, adds: bool, makes: bo
         OSError: it cannot be opened.
         sqlite3.Error: the same.
     """
-    real = real_path(path)
     _require_plain(path, real)
     has_journal = _has_journal(path, Path(f"{real}-journal"))
     mode = "rwc" if makes else "rw" if adds or has_journal else "ro"
@@ -76,15 +79,23 @@ def guarded_connection(path: Path, wait_seconds: float, *, adds: bool, makes: bo
     return connection
 
 
-def real_path(path: Path) -> Path:
-    """Where a file is, through links.
+def real_path(path: Path, *, follows_link: bool) -> Path:
+    """Where a file is, through links of folders.
+
+    Args:
+        path: the file.
+        follows_link: whether it may be a link itself.
 
     Raises:
-        InputError: no file can have such a name.
+        InputError: no file can have such a name, or it is a link.
     """
     if "\0" in str(path):
         raise InputError("The name of the file holds the character U+0000. Leave it out.", "path")
-    return Path(os.path.realpath(path))
+    if follows_link:
+        return Path(os.path.realpath(path))
+    if path.is_symlink():
+        raise link_refusal(path)
+    return Path(os.path.realpath(path.parent), path.name)
 
 
 class StepLimit:

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from app.atlas.atlas_file import AtlasFile
 from app.atlas.included import INCLUDED
+from app.atlas.summaries import AtlasSummaries
 from app.common.json import Json
 from app.store.storage_errors import file_error
-from core.atlas.row import RowStatus
 from core.atlas.space import AtlasSpace, default_space
-from core.errors import FootfallError, InputError, NotFoundError, StateError
+from core.errors import InputError, NotFoundError, StateError
 
 SUFFIX, DELETED = ".sqlite", ".deleted"
 MOST_NAME = 60
@@ -30,17 +30,20 @@ class AtlasLibrary:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder.absolute()
+        self._summaries = AtlasSummaries()
         for path in folder.glob(f"*{SUFFIX}{DELETED}"):
             with suppress(OSError):
                 path.unlink()
 
     def contents(self) -> list[Json]:
-        """A summary of each atlas, included ones last; of one that cannot be read, why not."""
-        own = sorted(path.stem for path in self._folder.glob(f"*{SUFFIX}"))
-        return [
-            *(self._content(name) for name in own if name not in INCLUDED and _NAME.fullmatch(name)),
-            *map(self._content, INCLUDED),
-        ]
+        """A summary of each atlas, included ones last; of one that cannot be read, why not.
+
+        Only files that changed since the last look are read, and not for long: the others of them say that
+        they are not looked at yet.
+        """
+        found = {path.stem: path for path in sorted(self._folder.glob(f"*{SUFFIX}"), key=lambda it: it.stem)}
+        own = {name: path for name, path in found.items() if name not in INCLUDED and _NAME.fullmatch(name)}
+        return [*self._summaries.summaries(own), *map(self.content, INCLUDED)]
 
     def content(self, name: str) -> Json:
         """The summary of an atlas, m/s.
@@ -48,30 +51,7 @@ class AtlasLibrary:
         Raises:
             NotFoundError: there is none of that name.
         """
-        self._path(name)
-        return self._content(name)
-
-    def _content(self, name: str) -> Json:
-        try:
-            with self.opened(name) as atlas:
-                (counts, fastest), space = atlas.summary(), atlas.space
-                return {
-                    "name": name,
-                    "included": name in INCLUDED,
-                    "robot": space.robot,
-                    "kind": space.kind.value,
-                    "seed": space.seed,
-                    "gaits": sum(counts.values()),
-                    **{status.value: counts[status] for status in RowStatus},
-                    "fastest": fastest,
-                    "program": atlas.version,
-                    "robot_hash": atlas.robot_hash,
-                    "robot_changed": atlas.robot_hash != space.robot_hash,
-                    "space_hash": space.hash,
-                    "bytes": atlas.size,
-                }
-        except FootfallError as error:
-            return {"name": name, "included": name in INCLUDED, "trouble": error.sentence}
+        return self._summaries.summary(name, self._path(name))
 
     @contextmanager
     def opened(self, name: str) -> Iterator[AtlasFile]:
@@ -79,9 +59,9 @@ class AtlasLibrary:
 
         Raises:
             NotFoundError: there is none of that name.
-            InputError: the file is no atlas that this program can read.
+            InputError: the file is no atlas that this program can read, or a symbolic link in the folder.
         """
-        with closing(AtlasFile(self._path(name))) as atlas:
+        with closing(AtlasFile(self._path(name), follows_link=name in INCLUDED)) as atlas:
             yield atlas
 
     def started(self, name: str, space: AtlasSpace | None) -> AtlasFile:
@@ -96,22 +76,16 @@ class AtlasLibrary:
             InputError: it cannot have that name, or is of another space, robot or version.
             StorageError: the disk does not take it.
         """
-        if _NAME.fullmatch(name) is None or name.endswith((" ", ".")):
-            raise InputError(
-                f"The name of an atlas has 1 to {MOST_NAME} letters, digits, spaces, hyphens, dots and "
-                "underscores, and begins with a letter or a digit. Change it.",
-                "name",
-            )
-        _require_own(name)
+        require_name(name)
         path = self._folder / f"{name}{SUFFIX}"
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise file_error(error, self._folder) from error
         if space is None and os.path.lexists(path):
-            with closing(AtlasFile(path)) as known:
+            with closing(AtlasFile(path, follows_link=False)) as known:
                 space = known.space
-        return AtlasFile(path, space or default_space("deltawalker"))
+        return AtlasFile(path, space or default_space("deltawalker"), follows_link=False)
 
     def delete(self, name: str) -> None:
         """Takes an atlas out of the list.
@@ -135,7 +109,7 @@ class AtlasLibrary:
         deleted = path.with_name(path.name + DELETED)
         if _NAME.fullmatch(name) is None or not os.path.lexists(deleted):
             raise NotFoundError(f"No atlas “{name}” was deleted since the studio started.", "name")
-        if path.exists():
+        if os.path.lexists(path):
             raise StateError(f"There is another atlas “{name}” by now. Delete it first.", "name")
         _move(deleted, path)
 
@@ -146,6 +120,21 @@ class AtlasLibrary:
         if _NAME.fullmatch(name) is None or not os.path.lexists(path):
             raise NotFoundError(f"There is no atlas “{name}” (see GET /api/atlases).", "name")
         return path
+
+
+def require_name(name: str) -> None:
+    """A run may make an atlas of that name.
+
+    Raises:
+        InputError: none can have it, or it comes with the program.
+    """
+    if _NAME.fullmatch(name) is None or name.endswith((" ", ".")):
+        raise InputError(
+            f"The name of an atlas has 1 to {MOST_NAME} letters, digits, spaces, hyphens, dots and "
+            "underscores, and begins with a letter or a digit. Change it.",
+            "name",
+        )
+    _require_own(name)
 
 
 def _move(path: Path, to: Path) -> None:

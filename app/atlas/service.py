@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import closing
 
 from app.atlas.atlas_file import AtlasFile
-from app.atlas.library import AtlasLibrary
+from app.atlas.library import AtlasLibrary, require_name
 from app.atlas.run import LocalEngine, Progress, run_atlas
 from app.common.json import Json
 from app.jobs.job_tracker import JobTracker
@@ -83,6 +83,7 @@ class AtlasService:
             StateError: a run is on.
             StorageError: the disk does not take it.
         """
+        require_name(name)
         self._require_none()
         return self.library.started(name, space)
 

@@ -64,6 +64,12 @@ def sweep_partials(folder: Path, is_abandoned: Callable[[Path, os.stat_result], 
                 path.unlink()
 
 
+def link_refusal(path: Path) -> InputError:
+    """The refusal of a symbolic link where a file should be."""
+    sentence = f"{path.name} is a symbolic link, which is not followed. Put the file itself in its place."
+    return InputError(sentence, path.name)
+
+
 def write_atomically(
     path: Path,
     content: str | bytes,
@@ -140,7 +146,7 @@ def _take_over(path: Path, file: int) -> None:
 
 def _why_not_opened(path: Path, error: OSError) -> str:
     if error.errno == errno.ELOOP:
-        return f"{path.name} is a symbolic link, which is not followed. Put the file itself in its place."
+        return link_refusal(path).sentence
     if error.errno == errno.ENXIO:
         return _no_file(path, stat.S_IFSOCK)
     return f"{path.name} cannot be read: {error.strerror}. Give the studio the right to read it."

@@ -39,6 +39,7 @@ def test_a_run_tells_how_far_it_is_is_cancelled_and_goes_on(studio: StudioProces
     job = studio.ask("POST", "/api/atlases", {"name": "large", "count": MANY}).content["id"]
     second = studio.ask("POST", "/api/atlases", {"name": "other", "count": 10})
     assert (second.status, "cancel the job in Jobs" in second.content["error"]) == (409, True)
+    assert studio.ask("POST", "/api/atlases", {"name": "../x"}).status == 422
     refused = studio.ask("DELETE", "/api/atlases/large")
     assert (refused.status, "Cancel it in Jobs" in refused.content["error"]) == (409, True)
     wait_for(lambda: job_of(studio, job)["done"] >= 400, "a chunk is done", 120.0)

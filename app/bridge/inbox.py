@@ -51,8 +51,9 @@ class Inbox:
         """Adds what came."""
         with self._changed:
             if isinstance(item, Bytes) and self._memory + _memory(item) > MOST_BYTES:
-                if not isinstance(self._items[-1], LeftOut):
+                if not (self._items and isinstance(self._items[-1], LeftOut)):
                     self._items.append(LeftOut())
+                    self._changed.notify()
                 return
             self._items.append(item)
             self._memory += _memory(item)

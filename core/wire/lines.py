@@ -150,6 +150,7 @@ Line = (
 _NUMBER = r"(?: *-?\d{1,20}\.\d+| *-?(?:nan|inf|ovf))"
 _TELEMETRY = re.compile(rf"j,((?:-?\d{{1,3}}\.\d{{4}},){{{MOTORS}}})")
 _ERRORS = re.compile(rf"E, ((?:{_NUMBER},){{{MOTORS}}})")
+_SOME_ERRORS = re.compile(rf"E, (?:{_NUMBER},)*")
 _DURATION = re.compile(rf"(p )?durations i({_NUMBER})")
 _POINT = re.compile(rf"Trajectory Point (\d{{1,6}}): \tp ({_NUMBER}) ((?:{_NUMBER} ){{{MOTORS}}})")
 _COUNT = re.compile(r"(p )?Number of trajectory points \t(-?\d{1,10})")
@@ -244,6 +245,11 @@ class LineReader:
 def is_out_of_travel(stroke_mm: float) -> bool:
     """Whether no motor can have this stroke."""
     return not -READING_NOISE_MM <= stroke_mm <= HIGHEST_READING_MM + READING_NOISE_MM
+
+
+def is_miscounted(text: str) -> bool:
+    """Whether an unknown line is one of errors, each in order, but of more or fewer motors than there are."""
+    return _SOME_ERRORS.fullmatch(text) is not None
 
 
 def numbers_equal(sent_mm: tuple[float, ...], read_mm: tuple[float, ...]) -> bool:

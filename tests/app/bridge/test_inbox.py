@@ -23,6 +23,12 @@ def test_what_finds_no_room_is_left_out_and_marked_once() -> None:
     assert inbox.take() == [Bytes(b"again", 5.0)]
 
 
+def test_a_piece_that_is_too_large_by_itself_is_left_out() -> None:
+    inbox = Inbox()
+    inbox.put(Bytes(b"x" * (MOST_BYTES + 1), 1.0))
+    assert inbox.take(20.0) == [LeftOut()]
+
+
 def test_many_small_pieces_are_bounded_too() -> None:
     inbox = Inbox()
     for _ in range(3 * MOST_BYTES // ITEM_BYTES):

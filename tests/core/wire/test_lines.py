@@ -30,6 +30,7 @@ from core.wire.lines import (
     Telemetry,
     TrajectoryPoint,
     UnknownLine,
+    is_miscounted,
     numbers_equal,
     parse_line,
 )
@@ -94,6 +95,21 @@ def test_an_overflow_in_the_errors_is_read_as_infinite() -> None:
 )
 def test_a_line_that_is_not_quite_right_is_unknown(text: str) -> None:
     assert parse_line(text.encode()) == UnknownLine(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "is_odd"),
+    [
+        (f"E, {COMMAS[7:]}", True),
+        (f"E, {COMMAS}1.0000,", True),
+        ("E, ", True),
+        (f"E, {COMMAS}"[:-1], False),
+        (f"E, {COMMAS}".replace(",", "", 1), False),
+    ],
+)
+def test_errors_of_another_number_of_motors_are_told_from_a_spoilt_line(text: str, is_odd: bool) -> None:
+    assert parse_line(text.encode()) == UnknownLine(text) or not is_odd
+    assert is_miscounted(text) is is_odd
 
 
 @pytest.mark.parametrize("stroke", [25.0, -9.0, 999.9999])

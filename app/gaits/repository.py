@@ -3,21 +3,27 @@
 Only the command queue's thread calls this.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
 from app.documents.stored_gait import StoredGait, stored_gait
 from app.gaits.open_gait import OpenGait, fresh_gait, stored_entry
 from app.gaits.saved_file import WAYS_OUT, SavedFiles
-from app.gaits.trash import IN_TRASH, ROUTE, DeletedGait, deleted_gaits, put_away, trash_key
+from app.gaits.trash import IN_TRASH, ROUTE, DeletedGait, deleted_gaits, put_away, trash_key, way_key
 from app.store.gait_files import GaitFiles, free_id
 from app.store.storage_errors import left_undone
 from app.store.tables.edit_history_store import EditHistoryRow, EditHistoryStore, VersionRow
 from app.undo.history import History
-from core.errors import InputError, NotFoundError, StateError, StorageError
+from core.errors import FootfallError, InputError, NotFoundError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
+
+MISNAMED = (
+    "{0} is no gait's file name: lower-case letters, digits and hyphens stand before .json. Rename or remove "
+    "the file {0} in the folder gaits, or import it."
+)
 
 
 class GaitRepository:
@@ -33,8 +39,7 @@ class GaitRepository:
         self._edits = edits
         self._saved_files = SavedFiles(files, edits)
         self._stored: dict[str, History] = {}
-        with left_undone("What is kept of deleted gaits is not put away"):
-            put_away(files, edits)
+        self._put_away()
 
     def stamps(self) -> dict[str, tuple[int, int] | None]:
         """Built-in gaits first, then saved ones; each with what changes when its file does."""
@@ -79,7 +84,9 @@ class GaitRepository:
 
     def _saved(self, gait_id: str) -> StoredGait:
         if not self._files.is_id(gait_id):
-            raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
+            is_file = gait_id in self.misnamed()
+            sentence = MISNAMED.format(gait_id) if is_file else f"There is no gait “{gait_id}”."
+            raise NotFoundError(sentence, gait_id)
         file = self._saved_files.of(gait_id)
         if file is not None:
             return StoredGait(file.gait, file.notice)
@@ -108,8 +115,7 @@ class GaitRepository:
             is_builtin = gait_id in library()
             write = (lambda: None) if is_builtin else (lambda: self._files.write(gait_id, gait))
             self._files.set_aside(gait_id, write)
-        self._saved_files.forget(gait_id)
-        self._stored.pop(gait_id, None)
+        self._forget(gait_id)
 
     def put(
         self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
@@ -194,7 +200,7 @@ class GaitRepository:
         return self.write(fresh_gait(self._free_id(gait.name, taken), gait, False, None), before)
 
     def _free_id(self, name: str, taken: frozenset[str] = frozenset()) -> str:
-        kept = (key.removeprefix(IN_TRASH) for key in self._edits.ids())
+        kept = (part for key in self._edits.ids() for part in key.removeprefix(IN_TRASH).split("/"))
         used = {ROUTE, *taken, *self.stamps(), *self._files.deleted_ids(), *kept}
         return free_id(name, used)
 
@@ -206,23 +212,42 @@ class GaitRepository:
         Raises:
             StorageError: the disk does not take it; the gait stays.
         """
-        key = trash_key(gait_id)
-        spare = self._free_id(gait_id)
+        put_away(self._files, self._edits)
+        key, spare = trash_key(gait_id), self._free_id(gait_id)
         if gait_id in self._files.deleted_ids():
-            self._files.rename_deleted(gait_id, spare)
-        if key != gait_id:
+            with self._on_its_way(gait_id, spare) as way:
+                self._files.rename_deleted(gait_id, spare, lambda: self._edits.rename(way, trash_key(spare)))
+        elif key != gait_id:
             self._edits.rename(key, trash_key(spare))
-        self._files.remove(gait_id)
-        try:
-            self._edits.rename(gait_id, key)
-        except StorageError:
-            self._files.restore(gait_id, gait_id)
-            raise
+        self._files.remove(gait_id, lambda: self._edits.rename(gait_id, key))
+        self._forget(gait_id)
+
+    def _forget(self, gait_id: str) -> None:
         self._saved_files.forget(gait_id)
         self._stored.pop(gait_id, None)
 
+    @contextmanager
+    def _on_its_way(self, gait_id: str, to: str) -> Iterator[str]:
+        """Gives what is kept of a gait in the trash a key that says where its file goes.
+
+        What is refused on the way brings it back to where the file is.
+        """
+        way = way_key(gait_id, to)
+        if trash_key(gait_id) != gait_id:
+            self._edits.rename(trash_key(gait_id), way)
+        try:
+            yield way
+        except FootfallError:
+            self._put_away()
+            raise
+
+    def _put_away(self) -> None:
+        with left_undone("What is kept of deleted gaits is not put away"):
+            put_away(self._files, self._edits)
+
     def deleted(self) -> tuple[DeletedGait, ...]:
         """What `restore` can bring back, the last deleted first."""
+        self._put_away()
         return deleted_gaits(self._files, self._edits)
 
     def restore(self, gait_id: str) -> tuple[str, bool]:
@@ -233,15 +258,15 @@ class GaitRepository:
 
         Raises:
             InputError: it is not in the trash.
+            StorageError: the disk does not take it; the gait stays in the trash, whole.
         """
+        put_away(self._files, self._edits)
         self._files.require_deleted(gait_id)
-        key = trash_key(gait_id)
-        is_free = self._files.stamp(gait_id) is None and (key == gait_id or gait_id not in self._edits.ids())
+        is_built_in = trash_key(gait_id) == gait_id
+        is_free = self._files.stamp(gait_id) is None and (is_built_in or gait_id not in self._edits.ids())
         to = gait_id if is_free else self._free_id(gait_id)
-        if key != gait_id:
-            self._edits.rename(key, to)
-        had_approval = self._edits.withdraw_approval(to)
-        self._files.restore(gait_id, to)
-        self._saved_files.forget(to)
-        self._stored.pop(to, None)
-        return to, had_approval
+        approvals: list[bool] = []
+        with self._on_its_way(gait_id, to) as way:
+            self._files.restore(gait_id, to, lambda: approvals.append(self._edits.bring_back(way, to)))
+        self._forget(to)
+        return to, any(approvals)

@@ -17,7 +17,7 @@ from app.gaits.plan_cache import PlanCache
 from app.gaits.recovery import GaitRecovery
 from app.gaits.repository import GaitRepository
 from app.gaits.results import ResultDelivery, Results
-from app.gaits.trash import DeletedGait
+from app.gaits.trash import DeletedGait, RestoredUnshownError
 from app.gaits.undo import merged_gait, without_unreadable
 from app.gaits.versions import VersionKind, Versions
 from app.gaits.views import require_line
@@ -29,7 +29,7 @@ from app.store.tables.edit_history_store import EditHistoryStore
 from app.store.tables.times_store import TimesStore
 from app.undo.history import Author
 from core.checks.simulation import Simulated
-from core.errors import StateError
+from core.errors import InputError, StateError
 from core.findings import Verdict
 from core.gait.gait import Gait, drawn_timeline
 from core.library.library import library
@@ -314,15 +314,20 @@ class GaitService:
         back under a free id.
 
         Raises:
-            InputError: it is not in the trash; or it is back, and no state of it can be shown.
+            RestoredUnshownError: it is back, and no state of it can be shown.
+            InputError: it is not in the trash.
         """
         gait_id, had_approval = self._repository.restore(gait_id)
         self.open_gaits.close(gait_id)
         if self._is_recoverable(gait_id):
             self.recover(gait_id)
+        try:
+            open_gait = self.open_gait(gait_id)
+        except InputError as error:
+            raise RestoredUnshownError(gait_id, error) from error
         if had_approval:
             revoked = "The gait was deleted and brought back, so it is no longer approved."
-            self.open_gaits.keep(replace(self.open_gait(gait_id), revoked=revoked))
+            self.open_gaits.keep(replace(open_gait, revoked=revoked))
         return (
             self._return(gait_id, "Bring back what was saved")
             if gait_id in library()

@@ -4,6 +4,7 @@ import logging
 from typing import Any
 
 from app.gaits.recovery import WayOut
+from app.gaits.repository import MISNAMED
 from app.gaits.service import GaitService
 from app.gaits.views import line_view, problem_view
 from core.errors import FootfallError, NotFoundError
@@ -13,11 +14,6 @@ logger = logging.getLogger(__name__)
 
 Line = dict[str, Any]
 """What the list shows of a gait."""
-
-_MISNAMED = (
-    "{} is no gait's file name: lower-case letters, digits and hyphens stand before .json. Rename the file, "
-    "or import it."
-)
 
 Mark = tuple[object, ...]
 """Changes whenever a gait's line may."""
@@ -46,7 +42,7 @@ class GaitSummaries:
         self._kept = {gait_id: self._line(gait_id, mark) for gait_id, mark in marks.items()}
         lines = [line for _, line in self._kept.values() if line is not None]
         misnamed = self._service.open_gaits.misnamed()
-        return lines + [problem_view(name, _MISNAMED.format(name)) for name in misnamed]
+        return lines + [problem_view(name, MISNAMED.format(name)) for name in misnamed]
 
     def troubles(self) -> dict[str, str]:
         """What is wrong with files, in sentences, by gait; nobody is given a list."""

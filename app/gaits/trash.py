@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from app.documents.stored_gait import stored_gait
 from app.store.gait_files import GaitFiles
 from app.store.tables.edit_history_store import EditHistoryStore
-from core.errors import FootfallError
+from core.errors import FootfallError, InputError
 from core.library.library import library
 
 ROUTE = "deleted"
@@ -26,16 +26,43 @@ def trash_key(gait_id: str) -> str:
     return gait_id if gait_id in library() else f"{IN_TRASH}{gait_id}"
 
 
-def put_away(files: GaitFiles, log: EditHistoryStore) -> None:
-    """Puts away what is kept of gaits in the trash, where a program ended before it did, or was older.
+def way_key(gait_id: str, to: str) -> str:
+    """Key of the same while its file goes from its place in the trash to another id, there or outside."""
+    return f"{IN_TRASH}{gait_id}/{to}"
 
+
+def put_away(files: GaitFiles, log: EditHistoryStore) -> None:
+    """Puts what is kept of deleted gaits to where their files are.
+
+    They are apart where a program ended, or the disk refused, between the two; an older program left them so.
     A gait whose id is in use stays as it is: nobody can tell what belongs to which.
     """
-    kept = log.ids()
-    for gait_id in files.deleted_ids():
+    kept, deleted = log.ids(), files.deleted_ids()
+    for key in kept:
+        gait_id, _, to = key.removeprefix(IN_TRASH).partition("/")
+        if not (key.startswith(IN_TRASH) and files.is_id(gait_id) and files.is_id(to)):
+            continue
+        is_back = {gait_id, to}.isdisjoint(deleted) and files.stamp(to) is not None
+        at = to if is_back else trash_key(to if to in deleted and gait_id not in deleted else gait_id)
+        if at not in kept:
+            (log.bring_back if is_back else log.rename)(key, at)
+    for gait_id in deleted:
         key = trash_key(gait_id)
         if gait_id in kept and key not in kept and files.is_id(gait_id) and files.stamp(gait_id) is None:
             log.rename(gait_id, key)
+
+
+class RestoredUnshownError(InputError):
+    """A deleted gait is back, and no state of it can be shown.
+
+    Args:
+        gait_id: its id.
+        error: why it cannot be shown.
+    """
+
+    def __init__(self, gait_id: str, error: InputError) -> None:
+        super().__init__(error.sentence, error.where)
+        self.gait_id = gait_id
 
 
 @dataclass(frozen=True)

@@ -42,11 +42,17 @@ def default_data_folder() -> Path:
     return Path(os.environ.get("XDG_DATA_HOME", Path.home() / ".local" / "share")) / "footfall-studio"
 
 
-def _move(source: Path, target: Path) -> None:
+def _move(source: Path, target: Path, after: Callable[[], object] = lambda: None) -> None:
+    """Moves a file. What `after` raises moves it back."""
     try:
         source.replace(target)
     except OSError as error:
         raise file_error(error, target) from error
+    try:
+        after()
+    except BaseException:
+        _move(target, source)
+        raise
 
 
 def _is_json(name: str) -> bool:
@@ -227,20 +233,28 @@ class GaitFiles:
         text = json.dumps(gait_content(gait), indent=2, ensure_ascii=False) + "\n"
         write_atomically(self._path(gait_id), text, before)
 
-    def remove(self, gait_id: str) -> None:
-        """Moves a gait's file into the trash, from where it can be restored; see `rename_deleted`."""
-        _move(self._path(gait_id), self._trash / f"{gait_id}.json")
+    def remove(self, gait_id: str, after: Callable[[], object] = lambda: None) -> None:
+        """Moves a gait's file into the trash, from where it can be restored; see `rename_deleted`.
+
+        Args:
+            gait_id: whose file.
+            after: what it raises moves the file back.
+        """
+        _move(self._path(gait_id), self._trash / f"{gait_id}.json", after)
         self._write_order([*(one for one in self._deleted_order() if one != gait_id), gait_id])
 
-    def rename_deleted(self, gait_id: str, to: str) -> None:
-        """Gives a gait in the trash another id, so that one of its id may come there."""
-        _move(self._trash / self._path(gait_id).name, self._trash / self._path(to).name)
+    def rename_deleted(self, gait_id: str, to: str, after: Callable[[], object] = lambda: None) -> None:
+        """Gives a gait in the trash another id, so that another may have its own; `after` as in `remove`."""
+        _move(self._trash / self._path(gait_id).name, self._trash / self._path(to).name, after)
         self._write_order([to if one == gait_id else one for one in self._deleted_order()])
 
     def _write_order(self, ids: list[str]) -> None:
         there = [one for one in ids if (self._trash / f"{one}.json").exists()]
         with left_undone("The order of the deleted gaits is not kept"):
-            write_atomically(self._trash / _ORDER, "\n".join(there))
+            try:
+                write_atomically(self._trash / _ORDER, "\n".join(there))
+            except InputError as error:  # a folder stands there
+                raise StorageError(error.sentence, error.where) from error
 
     def set_aside(self, gait_id: str, write: Callable[[], None]) -> Path:
         """Has another file take a gait's place; what was there is kept, whatever it is.
@@ -255,27 +269,21 @@ class GaitFiles:
         Raises:
             StorageError: the disk does not take it.
         """
-        path = self._path(gait_id)
         require_folder(self._aside)
         name = f"{gait_id}-{time.strftime('%Y-%m-%d-%H%M%S')}"
         paths = (self._aside / f"{name}-{number:03}.json" for number in count(1))
         kept = next(path for path in paths if not path.exists())
-        _move(path, kept)
-        try:
-            write()
-        except BaseException:
-            _move(kept, path)
-            raise
+        _move(self._path(gait_id), kept, write)
         return kept
 
-    def restore(self, gait_id: str, to: str) -> None:
-        """Brings a removed file back, under an id that has no file.
+    def restore(self, gait_id: str, to: str, after: Callable[[], object] = lambda: None) -> None:
+        """Brings a removed file back, under an id that has no file; `after` as in `remove`.
 
         Raises:
             InputError: it is not in the trash.
         """
         self.require_deleted(gait_id)
-        _move(self._trash / self._path(gait_id).name, self._path(to))
+        _move(self._trash / self._path(gait_id).name, self._path(to), after)
 
     def require_deleted(self, gait_id: str) -> None:
         """Makes sure that a gait is in the trash.

@@ -15,7 +15,7 @@ from app.common.json import Json
 from app.documents.gait_json import MOST_BYTES, gait_content, parse_gait
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.open_gait import OpenGait
-from app.gaits.trash import ROUTE
+from app.gaits.trash import ROUTE, RestoredUnshownError
 from app.gaits.verdict_views import approval_view, verdict_view
 from app.scene.overlay import plan_poses
 from app.studio.studio import Studio
@@ -211,16 +211,21 @@ async def recover(gait_id: str, studio: TheStudio, author: TheAuthor) -> Json:
 
 @router.post("/{gait_id}/restore")
 async def restore(gait_id: str, studio: TheStudio) -> Json:
-    """Brings a deleted gait back; one of which no state can be shown comes back too, and is refused then."""
+    """Brings a deleted gait back; one that cannot be shown is answered with its line in the list."""
+    lines: list[Json] = []
 
     def restored() -> OpenGait:
         try:
             return studio.gaits.restore(gait_id)
-        except InputError:
+        except RestoredUnshownError as error:
             studio.publisher.publish_list()
+            lines.extend(line for line in studio.publisher.summaries() if line["id"] == error.gait_id)
             raise
 
-    return await changed(studio, restored)
+    try:
+        return await changed(studio, restored)
+    except RestoredUnshownError:
+        return lines[0]
 
 
 @router.post("/{gait_id}/file")

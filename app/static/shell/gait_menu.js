@@ -38,7 +38,11 @@ const lineOf = ({ selected, gaits, view }) =>
 
 /** Brings a deleted gait back and shows it; its id is another one where a new gait has its own by now. */
 async function showRestored(deleted, show) {
-  const { id, name } = await api.restore(deleted);
+  const { id, name, problem } = await api.restore(deleted);
+  if (problem) {
+    toast(`“${name}” is back, and cannot be shown. ${problem}`, { tone: "bad" });
+    return;
+  }
   if (id !== deleted) toast(`“${name}” is back as ${id}, because another gait has the id ${deleted}.`);
   await show(id);
 }

@@ -273,14 +273,14 @@ class EditHistoryStore:
     def rename(self, gait: str, to: str) -> None:
         """Keeps everything of a gait under another id, of which nothing is kept yet."""
         with self._database.writing() as connection:
-            for table in ("open_gait", "history", "version", "approval"):
-                connection.execute(f"UPDATE {table} SET gait=? WHERE gait=?", (to, gait))
+            _rename(connection, gait, to)
 
-    def withdraw_approval(self, gait: str) -> bool:
-        """Takes a gait's approval away, but not its record; returns whether there was one."""
+    def bring_back(self, gait: str, to: str) -> bool:
+        """The same, without the approval, but with its record; returns whether there was an approval."""
         with self._database.writing() as connection:
+            _rename(connection, gait, to)
             changed = connection.execute(
-                "UPDATE open_gait SET approval=NULL WHERE gait=? AND approval IS NOT NULL", (gait,)
+                "UPDATE open_gait SET approval=NULL WHERE gait=? AND approval IS NOT NULL", (to,)
             )
             return changed.rowcount > 0
 
@@ -334,6 +334,11 @@ def _actions(text: str, gait: str) -> tuple[Action, ...]:
         return actions
     except (TypeError, ValueError) as error:
         raise InputError(f"What can be undone of “{gait}” cannot be read: {error}.", gait) from error
+
+
+def _rename(connection: sqlite3.Connection, gait: str, to: str) -> None:
+    for table in ("open_gait", "history", "version", "approval"):
+        connection.execute(f"UPDATE {table} SET gait=? WHERE gait=?", (to, gait))
 
 
 def _insert_version(connection: sqlite3.Connection, gait: str, version: VersionRow) -> None:

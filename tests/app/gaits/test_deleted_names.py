@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Callable
 from dataclasses import replace
@@ -108,6 +109,19 @@ def test_rows_of_an_older_program_are_put_away_at_the_start(
     service = opened()
     appear(tmp_path, gait_id, same=False)
     assert service.document(gait_id).name == "Theirs"
+    assert service.restore(gait_id).gait.name == "Edited"
+
+
+@pytest.mark.parametrize("kind", ["folder", "pipe"])
+def test_an_order_of_the_trash_that_is_no_file_holds_nothing_up(
+    kind: str, opened: Opened, tmp_path: Path
+) -> None:
+    opened()
+    order = tmp_path / "trash" / ".order"
+    order.mkdir() if kind == "folder" else os.mkfifo(order)
+    service = opened()
+    gait_id = deleted_gait(service)
+    assert [one.id for one in opened().deleted()] == [gait_id]
     assert service.restore(gait_id).gait.name == "Edited"
 
 

@@ -120,8 +120,11 @@ def test_what_is_no_gait_is_listed_as_what_it_is_and_can_be_deleted_and_brought_
 def test_a_file_whose_name_is_no_id_is_listed_with_the_remedy(service: GaitService, data: Path) -> None:
     (data / "gaits" / "My Walk.json").write_text(json.dumps(gait_content(WALK)))
     assert "My Walk.json" in line(GaitSummaries(service), "My Walk.json")["problem"]
-    with pytest.raises(NotFoundError):
-        service.open_gait("My Walk.json")
+    for act in (service.open_gait, service.delete):
+        with pytest.raises(NotFoundError, match=r"remove the file My Walk\.json in the folder gaits"):
+            act("My Walk.json")
+    with pytest.raises(NotFoundError, match="There is no gait"):
+        service.delete("My Other Walk.json")
 
 
 @pytest.mark.parametrize("is_running", [True, False])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -35,8 +35,43 @@ def test_a_pipe_among_the_gaits_holds_nothing_up(studio: StudioProcess) -> None:
     assert studio.ask("GET", "/api/gaits/pipe/view").status == 422
     assert studio.ask("DELETE", "/api/gaits/pipe").status == 200
     assert "pipe" not in listed(studio)
+    restored = studio.ask("POST", "/api/gaits/pipe/restore")
+    assert (restored.status, restored.content) == (200, listed(studio)["pipe"])
     assert studio.ask("POST", "/api/gaits/pipe/restore").status == 422
-    assert "pipe" in listed(studio)
+
+
+@pytest.mark.parametrize("kind", ["cut off", "folder", "pipe", "link"])
+def test_what_stands_in_the_trash_unreadable_is_back_with_its_problem(
+    kind: str, studio: StudioProcess, data: Path
+) -> None:
+    path = data / "trash" / "broken.json"
+    make: dict[str, Callable[[], object]] = {
+        "cut off": lambda: path.write_text("{"),
+        "folder": path.mkdir,
+        "pipe": lambda: os.mkfifo(path),
+        "link": lambda: path.symlink_to(data / "nothing"),
+    }
+    make[kind]()
+    restored = studio.ask("POST", "/api/gaits/broken/restore")
+    assert (restored.status, restored.content["id"]) == (200, "broken")
+    assert "broken.json" in restored.content["problem"]
+    assert restored.content == listed(studio)["broken"]
+    path.write_text("{")  # another one, while the id is in use
+    beside = studio.ask("POST", "/api/gaits/broken/restore")
+    assert (beside.status, beside.content["id"]) == (200, "broken-2")
+    for gait in ("broken", "broken-2"):
+        assert studio.ask("DELETE", f"/api/gaits/{gait}").status == 200
+        there = data / "trash" / f"{gait}.json"
+        there.rmdir() if there.is_dir() else there.unlink()
+
+
+def test_a_file_whose_name_is_no_id_is_refused_with_the_remedy(studio: StudioProcess, data: Path) -> None:
+    path = data / "gaits" / "a b.json"
+    path.write_text("{")
+    refused = studio.ask("DELETE", "/api/gaits/a%20b.json")
+    assert (refused.status, refused.content["error"]) == (404, listed(studio)["a b.json"]["problem"])
+    assert "remove the file a b.json in the folder gaits" in refused.content["error"]
+    path.unlink()
 
 
 @pytest.mark.parametrize(("keep", "notes"), [("file", "theirs"), ("mine", "")])

@@ -15,7 +15,7 @@ STOPS = """(part) => {
   return found.filter((element) => element.tabIndex >= 0 && !element.disabled
     && element.checkVisibility({ visibilityProperty: true })).length;
 }"""
-MOST_TABS = 40
+MOST_TABS = 90
 
 
 def focused(page: Page) -> str:

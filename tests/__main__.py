@@ -58,12 +58,13 @@ class Size:
 
 
 _MANY, _EXPLORE = (("--hypothesis-profile", name) for name in ("many", "explore"))
-_CI = ("-m", "(heavy or not soak) and not alone", *_MANY)
+_CI_MARKS = "(not soak or soak(short=True))"
+_CI = ("-m", f"{_CI_MARKS} and not alone", *_MANY)
 SIZES: Mapping[str, Size] = MappingProxyType(
     {
         "": Size(((*LANES, "-m", "not heavy and not soak"),)),
         # What keeps to the clock as a camera does comes last: a file at a time.
-        "--ci": Size(((*LANES, *_CI), ("-m", "alone", *ENDING)), beside=(*_CI, *ENDING)),
+        "--ci": Size(((*LANES, *_CI), ("-m", f"{_CI_MARKS} and alone", *ENDING)), beside=(*_CI, *ENDING)),
         "--soak": Size((("-m", "soak or property", *_EXPLORE, *ENDING),), environment={SOAK: "1"}),
     }
 )

@@ -23,7 +23,7 @@ settings.register_profile(
     "same", deadline=None, derandomize=True, max_examples=25, suppress_health_check=SLOW
 )
 settings.register_profile(
-    "many", deadline=None, derandomize=True, max_examples=100, suppress_health_check=SLOW
+    "many", deadline=None, derandomize=True, max_examples=50, suppress_health_check=SLOW
 )
 settings.register_profile(
     "explore", deadline=None, max_examples=300, print_blob=True, suppress_health_check=SLOW

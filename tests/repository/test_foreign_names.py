@@ -88,7 +88,7 @@ def test_the_exit_status_of_a_module_that_is_run_is_that_of_the_command(tmp_path
     assert "nothing.csv" in done.stderr
 
 
-@pytest.fixture(params=["wheel", "editable"])
+@pytest.fixture(params=[pytest.param("wheel", marks=pytest.mark.soak), "editable"])
 def program(request: pytest.FixtureRequest) -> tuple[str, ...]:
     """The script of an environment with the wheel; with an editable installation, what Python is told."""
     python: Path = request.getfixturevalue(f"{request.param}_python")

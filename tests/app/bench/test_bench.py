@@ -89,6 +89,7 @@ def test_the_frontier_is_confirmed_and_free_phases_get_no_less_far() -> None:
     assert all(free >= drawn for drawn, free in zip(reaches[::2], reaches[1::2], strict=True))
 
 
+@pytest.mark.soak
 def test_random_drawings_have_remedies_that_walk() -> None:
     rows = family_rows(Family.PLAIN, count=2, seed=4)
     figures = {row["drawing"]: row["remedies"] for row in rows}
@@ -97,6 +98,7 @@ def test_random_drawings_have_remedies_that_walk() -> None:
     assert figures["without any remedy"] == "0 of 2"
 
 
+@pytest.mark.soak
 def test_both_families_of_drawings_are_measured() -> None:
     rows = bench_remedies(count=1, seed=2)
     told = {row["family"]: row["remedies"] for row in rows if row["drawing"] == "with a remedy that walks"}

@@ -19,7 +19,7 @@ from app.bridge.telemetry import SILENCE_LIMIT
 from tests.support.soak import is_soak
 from tests.support.studio_process import PROGRAM, PROJECT, StudioProcess, running_studio, wait_for
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone, pytest.mark.soak]
+pytestmark = [pytest.mark.alone, pytest.mark.soak(short=True)]
 
 AWAY = (0.5, 2.0, 5.0, 20.0, 60.0) if is_soak() else (5.0,)
 SPEED = 2.0

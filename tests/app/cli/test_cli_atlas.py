@@ -232,7 +232,7 @@ def test_physics_of_the_front_is_printed_exported_and_not_simulated_twice(
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("ending", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("ending", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.soak)])
 def test_simulations_that_are_ended_go_on(space: Path, tmp_path: Path, ending: signal.Signals) -> None:
     atlas = tmp_path / "atlas.sqlite"
     asked = ["atlas", "run", "--space", str(space), "--count", "8", "--workers", "2", "-o", str(atlas)]

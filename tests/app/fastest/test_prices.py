@@ -52,7 +52,7 @@ def test_what_a_search_finds_is_a_price_and_a_cancelled_one_is_none() -> None:
     assert prices.known(outcome(SolveStatus.INFEASIBLE).problem) == Price()
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_stored_prices_are_found_again() -> None:
     requests = [
         ASKED,

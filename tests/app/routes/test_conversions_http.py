@@ -137,7 +137,7 @@ def test_a_table_is_set_aside_with_a_word(studio: StudioProcess) -> None:
     assert studio.ask("POST", f"/api/gaits/{made}/undo").content["document"]["segment_table"] is not None
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_step_that_is_too_long_says_so(studio: StudioProcess, gait: str) -> None:
     document = studio.document(gait)
     assert studio.ask("PUT", f"/api/gaits/{gait}", {**document, "step": [0.12, 0.0, 0.0]}).status == 200

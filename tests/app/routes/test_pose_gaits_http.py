@@ -136,7 +136,7 @@ def test_merging_is_nothing_to_it_and_a_pinned_pose_is_refused_where_there_is_no
     assert view(studio, gait)["revision"] == after["revision"]
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_an_edit_back_to_what_was_solved_before_takes_its_poses_and_step(
     studio: StudioProcess, gait: str
 ) -> None:
@@ -157,7 +157,7 @@ def test_an_edit_back_to_what_was_solved_before_takes_its_poses_and_step(
     assert studio.ask("POST", f"/api/gaits/{gait}/check").content["passed"]
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_pose_that_is_pinned_far_away_is_drawn_nearer_and_the_search_says_no(
     studio: StudioProcess, gait: str
 ) -> None:

@@ -66,8 +66,7 @@ def attack(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Attack]:
         yield Attack(studio, Campaign(studio, requests, stock), seed, folder)
 
 
-@pytest.mark.heavy
-@pytest.mark.soak
+@pytest.mark.soak(short=True)
 @pytest.mark.parametrize("part", range(PARTS))
 def test_no_request_makes_an_error_or_a_long_wait(attack: Attack, part: int) -> None:
     outcome = attack.campaign.run(REQUESTS // PARTS)
@@ -76,8 +75,7 @@ def test_no_request_makes_an_error_or_a_long_wait(attack: Attack, part: int) -> 
     assert not outcome.failures, words
 
 
-@pytest.mark.heavy
-@pytest.mark.soak
+@pytest.mark.soak(short=True)
 def test_after_all_that_the_studio_is_as_good_as_new_and_after_a_soak_its_memory_flat(attack: Attack) -> None:
     words = attack.words(together(attack.campaign.parts))
     sys.stdout.write(words)

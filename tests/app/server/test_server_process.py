@@ -297,7 +297,7 @@ def test_a_live_answer_follows_a_document_and_leaves_the_gait_alone(studio: Stud
     assert studio.ask("POST", "/api/gaits/walk/live").content["plan"]["hash"]
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_an_infeasible_gait_is_explained_and_its_remedies_work(studio: StudioProcess) -> None:
     document = studio.ask("GET", "/api/gaits/s-gait").content | {"step": [0.03, 0.0, 0.0]}
     answer = studio.ask("POST", "/api/gaits/s-gait/live", {"document": document}).content

@@ -15,6 +15,8 @@ from core.robot.model import load_robot
 from solver_jobs import simulate, simulate_variations
 
 GAITS = group_ids(Group.FOR_ROBOT)
+IN_CI = frozenset(("fast-c-gait", "fast-walk", "fast-curve-left", "rotate-45"))
+"""Gaits that are simulated outside of a soak: of each kind one."""
 
 
 def simulation(gait_id: str) -> SimulationProblem:
@@ -30,8 +32,10 @@ def test_it_passes_the_check_before_sending(gait_id: str) -> None:
     assert verdict.passed, str(verdict)
 
 
-@pytest.mark.heavy
-@pytest.mark.parametrize("gait_id", GAITS)
+@pytest.mark.parametrize(
+    "gait_id",
+    [pytest.param(one, marks=pytest.mark.heavy if one in IN_CI else pytest.mark.soak) for one in GAITS],
+)
 def test_it_goes_as_planned_and_upright(gait_id: str) -> None:
     problem = simulation(gait_id)
     figures = report(problem, simulate(problem))

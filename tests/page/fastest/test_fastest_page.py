@@ -67,7 +67,7 @@ def test_a_gait_is_made_of_what_is_chosen_and_shown(page: Page) -> None:
     expect(page.get_by_role("spinbutton", name="Iterations")).to_have_value("2")
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_rotation_is_made_by_its_degrees_and_solved(page: Page) -> None:
     page.get_by_role("button", name="New", exact=True).click()
     page.get_by_role("menuitem", name="Rotate").click()

@@ -46,7 +46,7 @@ def use_seconds(page: Page) -> str:
     return f"/ {found.group(1)} s"
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_the_fastest_timing_stands_beside_the_drawn_one_and_can_be_used(page: Page) -> None:
     choose(page, "C-Gait 10 mm")
     page.get_by_role("button", name="Fastest timing").click()

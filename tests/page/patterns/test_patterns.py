@@ -374,7 +374,7 @@ def test_a_reload_keeps_gaits_cursors_and_rules(search: Page) -> None:
     solved(search)
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", [pytest.param("light", marks=pytest.mark.soak), "dark"])
 def test_no_kind_of_pattern_has_a_serious_finding(search: Page, scheme: str) -> None:
     search.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
     for kind in ("Transition", "Some limbs", "Complete"):

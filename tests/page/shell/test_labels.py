@@ -13,6 +13,7 @@ from tests.support.page.drawers import open_drawer
 from tests.support.page.labels import Scheme, label_problems, require_whole_labels
 from tests.support.page.opened import leave_scene_out
 from tests.support.patience import patient_robot
+from tests.support.soak import is_soak
 from tests.support.studio_process import StudioProcess, running_studio, wait_for
 
 pytestmark = pytest.mark.heavy
@@ -33,7 +34,9 @@ def studio(tmp_path: Path, robot: EmulatedRobot) -> Iterator[StudioProcess]:
         yield running
 
 
-@pytest.fixture(params=SIZES)
+@pytest.fixture(
+    params=["desk", *(pytest.param(kind, marks=pytest.mark.soak) for kind in ("tablet", "zoomed"))]
+)
 def screen(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 
@@ -75,8 +78,8 @@ def test_no_label_is_cut_and_no_two_texts_overlap(
     page: Page, studio: StudioProcess, screen: str, tmp_path: Path
 ) -> None:
     usual, *others = [ViewportSize(width=width, height=height) for width, height in SIZES[screen]]
-    # Places do not depend on the colours: both are looked at in one size only.
-    schemes: tuple[Scheme, ...] = ("light", "dark") if screen == "desk" else ("light",)
+    # Places do not depend on the colours: in a soak both are looked at, in one size.
+    schemes: tuple[Scheme, ...] = ("light", "dark") if screen == "desk" and is_soak() else ("light",)
 
     def look(state: str) -> None:
         require_whole_labels(page, state, tmp_path, schemes)

@@ -34,7 +34,10 @@ def strip_height(page: Page) -> int:
     return found
 
 
-@pytest.mark.parametrize("size", [(1280, 800), (1280, 720), (1024, 768)])
+@pytest.mark.parametrize(
+    "size",
+    [*(pytest.param(size, marks=pytest.mark.soak) for size in ((1280, 800), (1280, 720))), (1024, 768)],
+)
 def test_reason_and_ways_out_are_seen_without_scrolling(page: Page, size: tuple[int, int]) -> None:
     page.set_viewport_size({"width": size[0], "height": size[1]})
     step = page.get_by_role("spinbutton", name="Step", exact=True)

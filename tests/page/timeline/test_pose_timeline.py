@@ -22,6 +22,7 @@ def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest
         yield opened
 
 
+@pytest.mark.soak
 def test_samples_are_as_wide_as_they_last_and_an_edit_is_solved_after_it(page: Page) -> None:
     cells = (
         page.get_by_role("grid", name="Footfall timeline").get_by_role("row").first.get_by_role("gridcell")

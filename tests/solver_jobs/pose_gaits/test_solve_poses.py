@@ -129,7 +129,7 @@ def test_a_margin_that_is_too_wide_is_explained_by_the_widest_that_works() -> No
     assert "The margin (--margin) is 25 mm" in result.explanation[0]
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_arms_that_come_near_each_other_are_kept_apart(c_gait: PoseGait) -> None:
     asked = 0.003
     assert 0.001 < check_poses(c_gait).figures.arm_distance < asked
@@ -158,14 +158,13 @@ def test_a_cancelled_search_has_no_gait() -> None:
     assert told[-1].stage.startswith("Solving")
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_robot_with_six_legs_walks_too() -> None:
     result = solved((1, 4, 2, 5, 3, 6), robot="hexapod")
     assert result.status is SolveStatus.SOLVED
 
 
-@pytest.mark.heavy
-@pytest.mark.soak
+@pytest.mark.soak(short=True)
 def test_what_is_called_solved_is_confirmed_whatever_is_asked() -> None:
     statuses = []
     for problem in random_problems(soaked(40, 4), 20261123, (None,)):

@@ -42,7 +42,7 @@ def test_the_fastest_turn_on_the_spot_is_far_faster_than_a_given_one() -> None:
     assert given.pace < fastest.pace
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_turn_that_is_too_far_is_refused_with_the_farthest() -> None:
     result = solve_poses(PoseProblem(load_robot("deltawalker"), C_GAIT, 0.0, step=0.0, turn=2.0))
     assert result.status is SolveStatus.INFEASIBLE

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ _COLUMNS = (
     "net_distance",
     "net_angle_deg",
     "extent_distance",
+    "body_lengths_s",
 )
 
 
@@ -60,12 +62,15 @@ class Trial:
         return table(["file, cm and degrees", *_COLUMNS], rows)
 
 
-def trial(*files: str | Path, expect: float, **options: Any) -> Trial:
+def trial(
+    *files: str | Path, expect: float, frame_times: str | Path | Sequence[str | Path] = (), **options: Any
+) -> Trial:
     """Movement tables of recorded foot tracks, defined as in the published ones.
 
     Args:
         files: track files (CSV), or videos with the option setup.
         expect: the whole wanted way, cm.
+        frame_times: files with the times of the frames (s), one for each file, for films whose rate varies.
         options: those of `footfall trial`: iterations, frame_rate (Hz), pixels_per_cm and others.
 
     Returns:
@@ -80,4 +85,6 @@ def trial(*files: str | Path, expect: float, **options: Any) -> Trial:
         Trial of 2 files: 4.81 cm at -3.2°
     """
     asked = command_options("trial", [str(file) for file in files], expect=expect, **options)
+    clocks = [frame_times] if isinstance(frame_times, str | Path) else frame_times
+    asked.frame_times = [Path(clock) for clock in clocks]
     return Trial(trials_content(read_trials(asked)))

@@ -9,8 +9,8 @@ import numpy as np
 from app.common.json import Json
 from app.store.tables.table import reading
 from app.trials.bands import band_content
-from app.trials.figures import movement_content, path_content
-from app.trials.record import ROBOT, TrialRecord
+from app.trials.figures import ROBOT, movement_content, path_content
+from app.trials.record import TrialRecord
 from app.trials.service import MOST_PLACES, TrialService
 from app.trials.simulated_feet import TrialSimulations
 from core.errors import InputError

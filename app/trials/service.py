@@ -16,11 +16,10 @@ from app.store.tables.trial_reference_store import TrialReferenceStore
 from app.store.tables.trial_store import TrialRow, TrialStore
 from app.trials.figures import path_content, plan_content, track_content
 from app.trials.planned import PlannedFeet
-from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
+from app.trials.record import TrialRecord, kept_track, told_ends, trial_record
 from app.trials.track_source import TrackRecord, astray_content, fit_content
 from core.arrays import Floats
 from core.errors import DamagedRowError, FootfallError, InputError, NotFoundError, StateError
-from core.robot.model import load_robot
 from core.trials.alignment import align, placed_motion
 from core.trials.iterations import find_iterations
 from core.vision.track import FootTrack
@@ -269,7 +268,6 @@ def _summary_of(row: TrialRow) -> Json:
     ends = found.ends if told is None else told
     if len(ends) != content["iterations"]:
         raise InputError(f"{content['iterations']} iterations need as many ends.", "ends")
-    length = load_robot(ROBOT).shape.plate_across
     summary = {
         **{key: content[key] for key in _WORDS},
         "is_example": is_example(content),
@@ -279,7 +277,7 @@ def _summary_of(row: TrialRow) -> Json:
         "ends_by_hand": content.get("ends") is not None,
         "ends_from": ends_from,
         **_record_content(content.get("sight")),
-        **track_content(track, expected, found, ends, length),
+        **track_content(track, expected, found, ends),
         "plan": None,
     }
     if content.get("plan") is not None:

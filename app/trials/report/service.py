@@ -11,8 +11,9 @@ from app.gaits.verdict_views import override_words
 from app.runs.plan_json import ran_plan
 from app.runs.service import RunService
 from app.trials.comparison import TrialComparison
+from app.trials.figures import ROBOT
 from app.trials.photos import TrialPhotos
-from app.trials.record import ROBOT, TrialRecord
+from app.trials.record import TrialRecord
 from app.trials.report.comparison import compared_parts
 from app.trials.report.page import facts, foot_name, footer, moment, number, page, photo, plot, table, text
 from app.trials.report.plots import ways_from_above, ways_over_time

@@ -84,7 +84,7 @@ class TrialService:
             track: where the feet were.
             words: what a person says of it.
             planned: where the feet were to be; None where that is not known.
-            track_record: how a camera saw the track; None where it came as a file.
+            track_record: how a camera saw the track; None where it came as a file without times.
 
         Raises:
             InputError: the track is too short for its iterations, or has no figures.

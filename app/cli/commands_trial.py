@@ -10,7 +10,14 @@ from app.cli.common.command import set_command
 from app.cli.common.output import end_on_signals, note, show
 from app.common.json import Json
 from app.export.trajectory_files import read_text
-from app.trials.figures import mean_content, movement_content, pace_content, part_content, step_content
+from app.trials.figures import (
+    PACE,
+    mean_content,
+    movement_content,
+    pace_content,
+    part_content,
+    step_content,
+)
 from core.errors import InputError
 from core.trials.iterations import (
     FoundIterations,
@@ -24,8 +31,22 @@ from core.vision.frame_times import FrameTimes, read_frame_times
 from core.vision.track import FootTrack
 from core.vision.track_csv import FRAME_RATE, PixelScale, read_track_csv
 
-_COLUMNS = ("+x", "−x", "dx", "+y", "−y", "dy", "dist", "angle", "% err", "net", "net angle", "extent")
-PACE = ("seconds", "speed_mm_s", "body_lengths_s")
+_COLUMNS = {
+    "plus_x": "+x",
+    "minus_x": "−x",
+    "dx": "dx",
+    "plus_y": "+y",
+    "minus_y": "−y",
+    "dy": "dy",
+    "net_distance": "net",
+    "net_angle_deg": "angle",
+    "net_error_percent": "error %",
+    "distance": "published",
+    "angle_deg": "angle",
+    "error_percent": "error %",
+    "extent_distance": "extent",
+}
+"""Columns of the table in order: places, the net figures, and those of the published tables."""
 
 
 @dataclass(frozen=True)
@@ -223,8 +244,8 @@ def _pace(content: Mapping[str, float]) -> str:
 
 
 def _table(rows: list[tuple[str, Movement]]) -> list[str]:
-    lines = ["  " + " ".join([" " * 7, *(f"{column:>9}" for column in _COLUMNS)])]
+    lines = ["  " + " ".join([" " * 7, *(f"{column:>9}" for column in _COLUMNS.values())])]
     for name, movement in rows:
-        figures = [value for key, value in movement_content(movement).items() if key != "net_error_percent"]
-        lines.append("  " + " ".join([f"{name:<7}", *(f"{value:9.2f}" for value in figures)]))
+        content = movement_content(movement)
+        lines.append("  " + " ".join([f"{name:<7}", *(f"{content[key]:9.2f}" for key in _COLUMNS)]))
     return lines

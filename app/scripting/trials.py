@@ -52,7 +52,7 @@ class Trial:
     def __repr__(self) -> str:
         count, mean = len(self.figures["files"]), self.mean
         files = "one file" if count == 1 else f"{count} files"
-        return f"Trial of {files}: {mean['distance']:.2f} cm at {mean['angle_deg']:.1f}°"
+        return f"Trial of {files}: net {mean['net_distance']:.2f} cm at {mean['net_angle_deg']:.1f}°"
 
     def _repr_html_(self) -> str:
         rows: list[list[Cell]] = [
@@ -82,7 +82,7 @@ def trial(
     Example:
         >>> import footfall as ff
         >>> ff.trial("track_1.csv", "track_2.csv", expect=5.0)  # doctest: +SKIP
-        Trial of 2 files: 4.81 cm at -3.2°
+        Trial of 2 files: net 4.81 cm at -3.2°
     """
     asked = command_options("trial", [str(file) for file in files], expect=expect, **options)
     clocks = [frame_times] if isinstance(frame_times, str | Path) else frame_times

@@ -15,6 +15,18 @@ from core.vision.track import FootTrack
 
 ROBOT = "deltawalker"
 """The one robot that stands on a platform (its cable's robot)."""
+FIGURES = (
+    "net_distance",
+    "net_angle_deg",
+    "net_error_percent",
+    "distance",
+    "angle_deg",
+    "error_percent",
+    "extent_distance",
+)
+"""Keys of a movement's figures: the net ones by which a trial is known, and those of published tables."""
+PACE = ("seconds", "speed_mm_s", "body_lengths_s")
+"""Keys of a movement's time and speed."""
 CM = 100.0
 """Centimetres in a metre."""
 

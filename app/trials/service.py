@@ -14,7 +14,7 @@ from app.store.database import Database
 from app.store.tables.table import Selection, reading
 from app.store.tables.trial_reference_store import TrialReferenceStore
 from app.store.tables.trial_store import TrialRow, TrialStore
-from app.trials.figures import path_content, plan_content, track_content
+from app.trials.figures import FIGURES, PACE, path_content, plan_content, track_content
 from app.trials.planned import PlannedFeet
 from app.trials.record import TrialRecord, kept_track, told_ends, trial_record
 from app.trials.track_source import TrackRecord, astray_content, fit_content
@@ -303,17 +303,14 @@ def _line(row: TrialRow) -> Json:
     except FootfallError as error:
         return {"id": row.content["id"], "name": row.content["name"], "sentence": error.sentence}
     mean = summary["figures"]
-    speeds = [part["speed_mm_s"] for part in summary["parts"]]
     plan = summary["plan"]
     walk = summary["expected_cm"] if plan is None else plan["figures"]["net_distance"]
     return {
         **{key: summary[key] for key in (*_WORDS, "is_example")},
         "step_cm": round(walk / summary["iterations"], 2),
-        **{key: mean[key] for key in ("distance", "angle_deg", "error_percent")},
-        **{key: mean[key] for key in ("net_distance", "net_angle_deg", "net_error_percent")},
+        **{key: mean[key] for key in FIGURES},
         "part_distances": [part["net_distance"] for part in summary["parts"]],
-        "seconds": summary["seconds"],
-        "speed_mm_s": float(np.mean(speeds)),
+        **{key: summary[key] for key in PACE},
         "slip_cm": float(np.max(summary["slip"])),
         "filled": summary["filled"],
     }
@@ -341,15 +338,7 @@ def _group(name: str, step: float, iterations: int, trials: Sequence[Json]) -> J
     def folded(key: str, fold: Callable[[list[float]], Any]) -> float:
         return float(fold([trial[key] for trial in trials]))
 
-    keys = (
-        "distance",
-        "angle_deg",
-        "error_percent",
-        "net_distance",
-        "net_angle_deg",
-        "speed_mm_s",
-        "slip_cm",
-    )
+    keys = (*FIGURES, *PACE, "slip_cm")
     spread = {f"{key}_spread": folded(key, lambda v: np.std(v, ddof=1)) for key in keys if len(trials) > 1}
     return {
         "gait_name": name,
@@ -359,5 +348,5 @@ def _group(name: str, step: float, iterations: int, trials: Sequence[Json]) -> J
         "expected_cm": folded("expected_cm", np.mean),
         **{key: folded(key, np.mean) for key in keys},
         **{f"{key}_spread": spread.get(f"{key}_spread") for key in keys},
-        "distances": [trial["distance"] for trial in reversed(trials)],
+        "distances": [trial["net_distance"] for trial in reversed(trials)],
     }

@@ -69,6 +69,11 @@ def test_a_track_is_added_compared_moved_deleted_and_brought_back(
         published = panel.get_by_role("table", name="Movement as published")
         expect(published.get_by_role("row", name="mean 2.40 45.0 20")).to_be_visible()
         expect(published.get_by_role("row", name="planned 2.0")).to_be_visible()
+        net = panel.get_by_role("table", name="Net movement", exact=True)
+        figures = net.get_by_role("row", name="mean").get_by_role("cell").all_text_contents()
+        beside = panel.get_by_role("table", name="Net movement: planned, simulated, tracked")
+        tracked = beside.get_by_role("row", name="tracked").get_by_role("cell")
+        expect(tracked).to_have_text([re.compile(r"^\d"), *figures, "–"])
         before = int(end.get_attribute("aria-valuenow") or 0)
         end.press("ArrowLeft")
         expect(panel.get_by_role("button", name="Find them again")).to_be_visible()
@@ -79,7 +84,10 @@ def test_a_track_is_added_compared_moved_deleted_and_brought_back(
         page.get_by_role("button", name="Undo", exact=True).last.click()
         expect(end).to_have_attribute("aria-valuenow", str(before - 1))
         panel.get_by_role("button", name="All trials").click()
-        expect(panel.get_by_role("table", name="Gaits compared")).to_contain_text("Walk 10 mm, 1.0 cm")
+        row = panel.get_by_role("table", name="Gaits compared").get_by_role("row", name="Walk 10 mm, 1.0 cm")
+        expect(row.get_by_role("cell")).to_have_text([*figures, re.compile(r"^\d")])
+        lines = panel.get_by_role("list", name="Trials", exact=True)
+        expect(lines).to_contain_text(f"{figures[0]} of 2.00 cm")
 
 
 def test_the_whole_line_of_an_iterations_end_is_dragged_and_lies_where_the_hand_leaves_it(

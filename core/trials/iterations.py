@@ -20,7 +20,7 @@ SHORTEST_SHARE, LONGEST_SHARE = 0.75, 1.05
 """Pace of an iteration beside an even share of the track."""
 SAME = 1e-6
 """Share by which intervals of an even rate differ at most."""
-MOST_EVEN = 8
+MOST_EVEN = 3
 """So many times as many frames as a film has, at most, make its rate even."""
 LEAST_STEP = 1e-4
 """Floor under the logarithm of a step's size, m."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,17 @@ from app.cli.commands_trial import read_trials, trials_content
 from app.scripting.html import Cell, table
 from app.scripting.options import command_options
 
-_COLUMNS = ("dx", "dy", "distance", "angle_deg", "error_percent", "net_distance", "net_angle_deg")
+_COLUMNS = (
+    "dx",
+    "dy",
+    "distance",
+    "angle_deg",
+    "error_percent",
+    "net_distance",
+    "net_angle_deg",
+    "extent_distance",
+    "body_lengths_s",
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -34,14 +45,14 @@ class Trial:
 
     @property
     def mean(self) -> dict[str, float]:
-        """The mean over feet and files: dx, dy, distance and net_distance in cm, angles in degrees."""
+        """The mean over feet and files: dx, dy and distances in cm, angles in degrees."""
         values: dict[str, float] = self.figures["mean"]
         return values
 
     def __repr__(self) -> str:
         count, mean = len(self.figures["files"]), self.mean
         files = "one file" if count == 1 else f"{count} files"
-        return f"Trial of {files}: {mean['distance']:.2f} cm at {mean['angle_deg']:.1f}°"
+        return f"Trial of {files}: net {mean['net_distance']:.2f} cm at {mean['net_angle_deg']:.1f}°"
 
     def _repr_html_(self) -> str:
         rows: list[list[Cell]] = [
@@ -51,12 +62,15 @@ class Trial:
         return table(["file, cm and degrees", *_COLUMNS], rows)
 
 
-def trial(*files: str | Path, expect: float, **options: Any) -> Trial:
+def trial(
+    *files: str | Path, expect: float, frame_times: str | Path | Sequence[str | Path] = (), **options: Any
+) -> Trial:
     """Movement tables of recorded foot tracks, defined as in the published ones.
 
     Args:
         files: track files (CSV), or videos with the option setup.
         expect: the whole wanted way, cm.
+        frame_times: files with the times of the frames (s), one for each file, for films whose rate varies.
         options: those of `footfall trial`: iterations, frame_rate (Hz), pixels_per_cm and others.
 
     Returns:
@@ -68,7 +82,9 @@ def trial(*files: str | Path, expect: float, **options: Any) -> Trial:
     Example:
         >>> import footfall as ff
         >>> ff.trial("track_1.csv", "track_2.csv", expect=5.0)  # doctest: +SKIP
-        Trial of 2 files: 4.81 cm at -3.2°
+        Trial of 2 files: net 4.81 cm at -3.2°
     """
     asked = command_options("trial", [str(file) for file in files], expect=expect, **options)
+    clocks = [frame_times] if isinstance(frame_times, str | Path) else frame_times
+    asked.frame_times = [Path(clock) for clock in clocks]
     return Trial(trials_content(read_trials(asked)))

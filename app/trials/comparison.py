@@ -9,8 +9,8 @@ import numpy as np
 from app.common.json import Json
 from app.store.tables.table import reading
 from app.trials.bands import band_content
-from app.trials.figures import movement_content, path_content
-from app.trials.record import ROBOT, TrialRecord
+from app.trials.figures import FIGURES, ROBOT, movement_content, path_content
+from app.trials.record import TrialRecord
 from app.trials.service import MOST_PLACES, TrialService
 from app.trials.simulated_feet import TrialSimulations
 from core.errors import InputError
@@ -122,12 +122,11 @@ def _playing(record: TrialRecord, lap: int) -> list[float]:
 def _row(source: str, record: TrialRecord, motion: FootTrack) -> Json:
     """Mean figures of a motion, how long it takes, and how far its feet are from the tracked ones."""
     mean = movement_content(mean_movement(foot_movements(motion, record.expected)))
-    keys = ("distance", "angle_deg", "error_percent", "net_distance", "net_angle_deg", "net_error_percent")
     gaps = foot_gaps(record.track, record.ends, motion) * 1000.0 if motion is not record.track else None
     return {
         "source": source,
-        "seconds": float(motion.times[record.ends[-1] if motion is record.track else -1] - motion.times[0]),
-        **{key: mean[key] for key in keys},
+        "seconds": motion.seconds,
+        **{key: mean[key] for key in FIGURES},
         "gap_mm": None if gaps is None else float(gaps.mean()),
         "gaps_mm": None if gaps is None else gaps.tolist(),
     }

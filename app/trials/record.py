@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -11,17 +11,16 @@ import numpy as np
 from app.store.tables.shapes import ShapeError
 from app.store.tables.table import reading
 from app.store.tables.trial_store import TrialRow
+from app.trials.figures import ROBOT
 from app.trials.planned import PlannedFeet
 from core.arrays import interpolated
 from core.errors import InputError
 from core.robot.model import load_robot
 from core.trials.alignment import Alignment, align, align_feet, placed_motion
 from core.trials.iterations import find_iterations
+from core.vision.frame_times import timed_track
 from core.vision.track import FootTrack
 from core.vision.track_csv import parse_track_csv
-
-ROBOT = "deltawalker"
-"""The one robot that stands on a platform (its cable's robot)."""
 
 SAME_LAP = 1e-6
 """A part of a lap that is none."""
@@ -123,7 +122,7 @@ def kept_track(row: TrialRow) -> FootTrack:
     times = np.array(track_record["times"])
     if times.shape != track.times.shape:
         raise ShapeError("content.sight.times", f"has {times.size} times of {track.times.size} frames")
-    return replace(track, times=times)
+    return timed_track(track, times)
 
 
 def trial_record(row: TrialRow) -> TrialRecord:

@@ -14,13 +14,12 @@ from app.store.database import Database
 from app.store.tables.table import Selection, reading
 from app.store.tables.trial_reference_store import TrialReferenceStore
 from app.store.tables.trial_store import TrialRow, TrialStore
-from app.trials.figures import path_content, plan_content, track_content
+from app.trials.figures import FIGURES, PACE, path_content, plan_content, track_content
 from app.trials.planned import PlannedFeet
-from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
+from app.trials.record import TrialRecord, kept_track, told_ends, trial_record
 from app.trials.track_source import TrackRecord, astray_content, fit_content
 from core.arrays import Floats
 from core.errors import DamagedRowError, FootfallError, InputError, NotFoundError, StateError
-from core.robot.model import load_robot
 from core.trials.alignment import align, placed_motion
 from core.trials.iterations import find_iterations
 from core.vision.track import FootTrack
@@ -85,7 +84,7 @@ class TrialService:
             track: where the feet were.
             words: what a person says of it.
             planned: where the feet were to be; None where that is not known.
-            track_record: how a camera saw the track; None where it came as a file.
+            track_record: how a camera saw the track; None where it came as a file without times.
 
         Raises:
             InputError: the track is too short for its iterations, or has no figures.
@@ -269,7 +268,6 @@ def _summary_of(row: TrialRow) -> Json:
     ends = found.ends if told is None else told
     if len(ends) != content["iterations"]:
         raise InputError(f"{content['iterations']} iterations need as many ends.", "ends")
-    length = load_robot(ROBOT).shape.plate_across
     summary = {
         **{key: content[key] for key in _WORDS},
         "is_example": is_example(content),
@@ -279,7 +277,7 @@ def _summary_of(row: TrialRow) -> Json:
         "ends_by_hand": content.get("ends") is not None,
         "ends_from": ends_from,
         **_record_content(content.get("sight")),
-        **track_content(track, expected, found, ends, length),
+        **track_content(track, expected, found, ends),
         "plan": None,
     }
     if content.get("plan") is not None:
@@ -305,17 +303,14 @@ def _line(row: TrialRow) -> Json:
     except FootfallError as error:
         return {"id": row.content["id"], "name": row.content["name"], "sentence": error.sentence}
     mean = summary["figures"]
-    speeds = [part["speed_mm_s"] for part in summary["parts"]]
     plan = summary["plan"]
     walk = summary["expected_cm"] if plan is None else plan["figures"]["net_distance"]
     return {
         **{key: summary[key] for key in (*_WORDS, "is_example")},
         "step_cm": round(walk / summary["iterations"], 2),
-        **{key: mean[key] for key in ("distance", "angle_deg", "error_percent")},
-        **{key: mean[key] for key in ("net_distance", "net_angle_deg", "net_error_percent")},
+        **{key: mean[key] for key in FIGURES},
         "part_distances": [part["net_distance"] for part in summary["parts"]],
-        "seconds": summary["seconds"],
-        "speed_mm_s": float(np.mean(speeds)),
+        **{key: summary[key] for key in PACE},
         "slip_cm": float(np.max(summary["slip"])),
         "filled": summary["filled"],
     }
@@ -343,15 +338,7 @@ def _group(name: str, step: float, iterations: int, trials: Sequence[Json]) -> J
     def folded(key: str, fold: Callable[[list[float]], Any]) -> float:
         return float(fold([trial[key] for trial in trials]))
 
-    keys = (
-        "distance",
-        "angle_deg",
-        "error_percent",
-        "net_distance",
-        "net_angle_deg",
-        "speed_mm_s",
-        "slip_cm",
-    )
+    keys = (*FIGURES, *PACE, "slip_cm")
     spread = {f"{key}_spread": folded(key, lambda v: np.std(v, ddof=1)) for key in keys if len(trials) > 1}
     return {
         "gait_name": name,
@@ -361,5 +348,5 @@ def _group(name: str, step: float, iterations: int, trials: Sequence[Json]) -> J
         "expected_cm": folded("expected_cm", np.mean),
         **{key: folded(key, np.mean) for key in keys},
         **{f"{key}_spread": spread.get(f"{key}_spread") for key in keys},
-        "distances": [trial["distance"] for trial in reversed(trials)],
+        "distances": [trial["net_distance"] for trial in reversed(trials)],
     }

@@ -12,16 +12,19 @@ COLUMNS = {
     "step_cm": "Step (cm)",
     "count": "Trials",
     "expected_cm": "Wanted (cm)",
-    "distance": "Distance (cm)",
-    "distance_spread": "± (cm)",
-    "angle_deg": "Angle (deg)",
-    "error_percent": "Error (%)",
-    "net_distance": "First to last (cm)",
-    "net_angle_deg": "First to last angle (deg)",
+    "net_distance": "Net distance (cm)",
+    "net_distance_spread": "± (cm)",
+    "net_angle_deg": "Net angle (deg)",
+    "net_error_percent": "Net error (%)",
+    "distance": "Distance as published (cm)",
+    "angle_deg": "Angle as published (deg)",
+    "error_percent": "Error as published (%)",
+    "extent_distance": "Extent distance (cm)",
     "speed_mm_s": "Speed (mm/s)",
     "slip_cm": "Largest slip (cm)",
 }
-"""Columns of the table of gaits, in order; distance and angle as in the published tables."""
+"""Columns of the table of gaits, in order: net figures from first to last frame, then those of the published
+tables (largest excursions in thesis chapter 5, extents in its Tables A.1 to A.4)."""
 
 _LATEX = {
     "\\": r"\textbackslash{}",

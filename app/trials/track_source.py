@@ -9,6 +9,7 @@ import numpy as np
 from app.common.json import Json
 from app.vision.tracking import VideoTrack
 from core.arrays import Bools, stretches
+from core.vision.track import FootTrack
 
 FITTING = 0.015
 """Feet that stand farther from the plan's than this at the first frame are not those feet, m."""
@@ -41,30 +42,36 @@ class TrackSource:
 
 @dataclass(frozen=True, eq=False)
 class TrackRecord:
-    """A track as it was seen.
+    """A track as it was seen, with the time of each frame.
 
     Args:
         found: the track and what was wrong.
-        source: from where.
+        source: from where; None where the track came as a file.
         remarks: sentences about what is missing.
         run_ends: last frame of each iteration by the run's own log; None where it does not tell.
     """
 
     found: VideoTrack
-    source: TrackSource
+    source: TrackSource | None
     remarks: tuple[str, ...] = ()
     run_ends: tuple[int, ...] | None = None
 
     def content(self) -> Json:
         """As it is kept."""
         return {
-            "source": vars(self.source),
-            "times": np.round(self.found.track.times, 5).tolist(),
+            "source": None if self.source is None else vars(self.source),
+            "times": self.found.track.times.tolist(),
             "unseen": marks(self.found.unseen),
             "false": marks(self.found.false),
             "remarks": list(self.remarks),
             "run_ends": None if self.run_ends is None else list(self.run_ends),
         }
+
+
+def filed_record(track: FootTrack) -> TrackRecord:
+    """What is kept of a track that came as a file with frame times."""
+    nothing = np.zeros(track.filled.shape, dtype=np.bool_)
+    return TrackRecord(VideoTrack(track, nothing, nothing, nothing[:, 0]), None)
 
 
 def marks(marked: Bools) -> list[dict[str, int]]:

@@ -1,12 +1,13 @@
 """When each iteration of a track ended, found from the feet's own steps."""
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Floats
+from core.arrays import Floats, interpolated
 from core.errors import InputError
 from core.trials.movement import Movement, foot_movements, mean_movement
 from core.vision.track import FootTrack
@@ -17,6 +18,10 @@ JITTER_SECONDS = 2.0
 """How far steps may come before or after an even pace while the pace itself is sought, s."""
 SHORTEST_SHARE, LONGEST_SHARE = 0.75, 1.05
 """Pace of an iteration beside an even share of the track."""
+SAME = 1e-6
+"""Share by which intervals of an even rate differ at most."""
+MOST_EVEN = 3
+"""So many times as many frames as a film has, at most, make its rate even."""
 LEAST_STEP = 1e-4
 """Floor under the logarithm of a step's size, m."""
 
@@ -50,26 +55,46 @@ def find_iterations(track: FootTrack, count: int) -> FoundIterations:
     Raises:
         InputError: the track is too short for so many.
     """
-    interval = float(np.median(np.diff(track.times)))
+    times, feet = _even(track)
+    interval, frames = float(np.median(np.diff(times))), times.size
     side, jitter = max(1, round(SIDE_SECONDS / interval)), max(1, round(JITTER_SECONDS / interval))
-    frames = track.times.size
     if count < 1 or frames < 4 * count * side:
         raise InputError(
-            f"The track's {frames} frames are too few for {count} iterations; give as many as it shows.",
+            f"The track's {track.times.size} frames are too few for {count} iterations; give as many as it "
+            "shows.",
             "iterations",
         )
-    sizes = _step_sizes(track, side)
+    sizes = _step_sizes(feet, side)
     pace, begins = _pace(_softened(np.maximum(sizes, 0.0), jitter), count)
     steps = np.array([_steps(size, begin, pace, count) for size, begin in zip(sizes, begins, strict=True)])
     firsts, lasts = steps.min(axis=0), steps.max(axis=0)
-    ends = tuple(int(end) for end in (lasts[:-1] + firsts[1:]) // 2)
-    return FoundIterations(steps, (*ends, frames - 1), bool((lasts[:-1] < firsts[1:]).all()))
+    ends = np.append((lasts[:-1] + firsts[1:]) // 2, frames - 1)
+    numbers = np.interp(times, track.times, np.arange(track.times.size)).round().astype(np.int64)
+    return FoundIterations(
+        numbers[steps], tuple(numbers[ends].tolist()), bool((lasts[:-1] < firsts[1:]).all())
+    )
 
 
-def _step_sizes(track: FootTrack, side: int) -> Floats:
-    """(feet, n) mean place after each frame less that before, along the robot's direction, m."""
-    direction = (track.feet[-1] - track.feet[0]).mean(axis=0)
-    way = track.feet @ (direction / max(float(np.hypot(*direction)), LEAST_STEP))
+def _even(track: FootTrack) -> tuple[Floats, Floats]:
+    """(n,) times at an even rate and the feet then, since a film's own rate may vary."""
+    intervals = np.diff(track.times)
+    interval = float(np.median(intervals))
+    if np.ptp(intervals) < SAME * interval:
+        return track.times, track.feet
+    count = min(round(track.seconds / interval), MOST_EVEN * track.times.size) + 1
+    times = np.linspace(track.times[0], track.times[-1], count)
+    return times, interpolated(times, track.times, track.feet)
+
+
+def _step_sizes(feet: Floats, side: int) -> Floats:
+    """(feet, n) mean place after each frame less that before, along the robot's direction, m.
+
+    Args:
+        feet: (n, feet, 2) at an even rate, m.
+        side: frames before and after.
+    """
+    direction = (feet[-1] - feet[0]).mean(axis=0)
+    way = feet @ (direction / max(float(np.hypot(*direction)), LEAST_STEP))
     frames = len(way)
     sums = np.concatenate([np.zeros((1, way.shape[1])), np.cumsum(way, axis=0)])
     here = np.arange(1, frames)
@@ -118,13 +143,11 @@ class IterationMovement:
         feet: each foot's movement.
         mean: mean of the feet's columns.
         seconds: how long it took, s.
-        speed: mean net distance a second, m/s.
     """
 
     feet: tuple[Movement, ...]
     mean: Movement
     seconds: float
-    speed: float
 
 
 def iteration_movements(
@@ -148,7 +171,7 @@ def iteration_movements(
         feet = foot_movements(track.between(first, last), expected)
         mean = mean_movement(feet)
         seconds = float(track.times[last] - track.times[first])
-        movements.append(IterationMovement(feet, mean, seconds, mean.net_distance / seconds))
+        movements.append(IterationMovement(feet, mean, seconds))
     return tuple(movements)
 
 
@@ -162,13 +185,13 @@ def standing_slip(track: FootTrack, steps: NDArray[np.int64]) -> Floats:
         track: all frames.
         steps: (feet, iterations) as found.
     """
-    side = max(1, round(SIDE_SECONDS / float(np.median(np.diff(track.times)))))
     feet, count = steps.shape
     slip = np.zeros((feet, count + 1))
     for foot in range(feet):
-        borders = [-side, *(int(step) for step in steps[foot]), track.times.size + side]
+        borders = [-math.inf, *track.times[steps[foot]], math.inf]
         for part, (last, following) in enumerate(pairwise(borders)):
-            stand = track.feet[last + side : max(following - side, last + side), foot]
+            first, end = np.searchsorted(track.times, [last + SIDE_SECONDS, following - SIDE_SECONDS])
+            stand = track.feet[first:end, foot]
             if len(stand):
                 slip[foot, part] = np.hypot(*(stand - stand[0]).T).max()
     return slip

@@ -42,9 +42,14 @@ class FootTrack:
         return int(self.feet.shape[1])
 
     @property
+    def seconds(self) -> float:
+        """From the first frame to the last, s."""
+        return float(self.times[-1] - self.times[0])
+
+    @property
     def frame_rate(self) -> float:
         """Frames a second, the mean by its times."""
-        return float((self.times.size - 1) / (self.times[-1] - self.times[0]))
+        return (self.times.size - 1) / self.seconds
 
     @property
     def gaps(self) -> tuple[tuple[int, int, int], ...]:

@@ -10,7 +10,7 @@ from app.export.trajectory_files import read_text
 from app.learning.published_trials import walks_of_table
 from app.learning.runner import WalkRunner
 from app.learning.views import learned_content
-from app.trials.record import ROBOT
+from app.trials.figures import ROBOT
 from core.errors import InputError
 from core.identification.learning import POINTS, learn
 from core.physics.masses import default_physics

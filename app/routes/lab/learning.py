@@ -11,7 +11,7 @@ from app.learning.published_trials import ITERATIONS, walks_of_table
 from app.learning.service import MOST_SET_NAME
 from app.learning.walks import SentTrial, walks_of
 from app.studio.studio import Studio
-from app.trials.record import ROBOT
+from app.trials.figures import ROBOT
 from app.web.dependencies import RequestBody, Revision, TheAuthor, TheStudio
 from core.errors import InputError
 from core.identification.learning import Walk

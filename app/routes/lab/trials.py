@@ -11,8 +11,12 @@ from app.studio.studio import Studio
 from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
 from app.trials.service import TrialDescription, compared
 from app.trials.tables import table_csv, table_latex
+from app.trials.track_source import TrackRecord, filed_record
 from app.web.dependencies import FiniteBody, RequestBody, Revision, TheAuthor, TheStudio, on_planned
-from core.vision.track_csv import FRAME_RATE, PixelScale, TrackFile, read_track_csv
+from core.errors import InputError
+from core.vision.frame_times import read_frame_times
+from core.vision.track import FootTrack
+from core.vision.track_csv import FRAME_RATE, PixelScale, read_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
 
@@ -31,13 +35,18 @@ class Pixels(RequestBody):
 
 
 class NewTrial(FiniteBody):
-    """A track; `run` brings the plan that the robot was sent, `gait` the plan that the gait has now."""
+    """A track; `run` brings the plan that the robot was sent, `gait` the plan that the gait has now.
+
+    `frame_times` is the text of a file with the time of each frame in s, one a line or a column `time`, for a
+    film whose rate varies; it stands in place of `frame_rate`.
+    """
 
     name: Name
     csv: str = Field(max_length=MOST_TEXT)
     expected_cm: Length
     iterations: Iterations = 1
     frame_rate: float = Field(default=FRAME_RATE, gt=0, le=1000)
+    frame_times: str | None = Field(default=None, max_length=MOST_TEXT)
     pixels: Pixels | None = None
     gait: str = Field(default="", max_length=200)
     run: str = Field(default="", max_length=200)
@@ -60,16 +69,23 @@ async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> Js
     """Keeps a track as a trial and tells its figures; `remarks` say what is unusual in its file's form."""
     scale = None if trial.pixels is None else PixelScale(0.01 / trial.pixels.per_cm, trial.pixels.origin)
 
-    def read() -> TrackFile:
-        return read_track_csv(trial.csv, trial.name, frame_rate=trial.frame_rate, pixels=scale)
+    def read() -> tuple[FootTrack, TrackRecord | None, list[str]]:
+        file = read_track_csv(trial.csv, trial.name, frame_rate=trial.frame_rate, pixels=scale)
+        if trial.frame_times is None:
+            return file.track, None, list(file.notes)
+        clock = read_frame_times(trial.frame_times, f"frame times of {trial.name}")
+        track = clock.timed(file.track, trial.name)
+        return track, filed_record(track), [*file.notes, *(f"{clock.name}: {one}" for one in clock.notes)]
 
-    file = await run_in_threadpool(read)
+    if trial.frame_times is not None and "frame_rate" in trial.model_fields_set:
+        raise InputError("Give either frame_rate or frame_times.", "frame_times")
+    track, record, remarks = await run_in_threadpool(read)
     gait, gait_name, planned = await planned_for(studio, trial.run, trial.gait, trial.iterations)
     words = TrialDescription(
         trial.name, author.name, trial.expected_cm, trial.iterations, trial.note, gait, gait_name, trial.run
     )
-    added = await run_in_threadpool(studio.trials.add, file.track, words, planned)
-    return {**added, "remarks": list(file.notes)}
+    added = await run_in_threadpool(studio.trials.add, track, words, planned, record)
+    return {**added, "remarks": remarks}
 
 
 @router.post("/example", status_code=201)

@@ -1,9 +1,9 @@
 /** Recordings of a run by cameras: the trial made from them, and their videos. */
 
 import { h } from "../lib/dom.js";
-import { fixed } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
+import { distanceText } from "../trials/trial_words.js";
 import { videoApi } from "../api/videos.js";
 import "../pictures/picture_style.js";
 
@@ -12,8 +12,8 @@ export const announceTrial = attempt(async (id, open) => {
   const trial = await trialApi.read(id);
   if (!trial.run || !trial.source?.camera) return;
   const walked =
-    `The robot walked ${fixed(trial.figures.distance, 1)} cm. `
-    + `The wanted distance was ${fixed(trial.expected_cm, 1)} cm.`;
+    `The robot walked ${distanceText(trial.figures.net_distance)} cm. `
+    + `The wanted distance was ${distanceText(trial.expected_cm)} cm.`;
   const recorded = `A camera recorded the run of “${trial.gait_name}”.`;
   const sentences = [recorded, walked, trial.plan?.astray_sentence];
   toast(sentences.filter(Boolean).join(" "), {

@@ -107,9 +107,9 @@ const HELP =
   "Mean: distance of the foot, averaged over the trials. Spread: distance of the end points from their mean "
   + "(root mean square). Planned: distance of the foot in the plan";
 
-const spreadTable = ({ feet }) =>
+const spreadTable = ({ feet, has_plan: hasPlan }) =>
   figureTable(
-    "Final distance of each foot, cm",
+    `Final distance of each foot along the ${hasPlan ? "planned" : "mean"} direction, cm`,
     HELP,
     ["", "mean", "spread", "planned"],
     feet.map(({ way, end_spread_cm: spread }, foot) => [

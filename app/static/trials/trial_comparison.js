@@ -6,6 +6,7 @@ import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { legend } from "./trial_plot.js";
 import { attempt } from "../lib/toasts.js";
+import { NET_HEAD, NET_HELP, netCells } from "./trial_words.js";
 
 const POLL_MS = 400;
 
@@ -19,24 +20,17 @@ export const comparisonApi = {
 };
 
 const HELP =
-  "Time, and mean movement of the feet, from the first to the last frame. "
-  + "Angle: direction of the movement, measured from the x axis of the platform where the robot walks. "
+  `${NET_HELP}. Time: from the first to the last frame. `
   + "Last column: mean distance of the feet from the tracked feet at the same phase of each iteration";
 
 function figures({ rows }) {
-  const cells = (row) => [
-    fixed(row.seconds, 1),
-    fixed(row.net_distance, 2),
-    fixed(row.net_angle_deg, 1),
-    fixed(row.net_error_percent, 0),
-    fixed(row.gap_mm, 1),
-  ];
+  const cells = (row) => [fixed(row.seconds, 1), ...netCells(row), fixed(row.gap_mm, 1)];
   const apart = ({ gaps_mm: gaps }) =>
     gaps ? gaps.map((gap, foot) => `foot ${foot + 1}: ${fixed(gap, 1)} mm`).join(", ") : null;
   return captionedTable(
     { class: "run-table trial-comparison", title: HELP },
-    "Planned, simulated, tracked, first to last",
-    ["", "s", "cm", "angle °", "error %", "feet mm"],
+    "Net movement: planned, simulated, tracked",
+    ["", "s", ...NET_HEAD, "feet mm"],
     rows.map((row) =>
       h(
         "tr",

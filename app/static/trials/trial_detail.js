@@ -12,43 +12,43 @@ import { notePart } from "./trial_note.js";
 import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
 import { followTrial } from "./trial_sync.js";
+import { NET_HEAD, NET_HELP, angleText, distanceText, errorText, netCells } from "./trial_words.js";
 
-const published = ({ distance, angle_deg: angle, error_percent: error }) => [
-  fixed(distance, 2),
-  fixed(angle, 1),
-  fixed(error, 0),
-];
-const net = ({ net_distance: distance, net_angle_deg: angle, net_error_percent: error }) => [
-  fixed(distance, 2),
-  fixed(angle, 1),
-  fixed(error, 0),
+const publishedCells = ({ distance, angle_deg: angle, error_percent: error, extent_distance: extent }) => [
+  distanceText(distance),
+  angleText(angle),
+  errorText(error),
+  distanceText(extent),
 ];
 
-const ANGLE_HELP =
-  "Angle: direction of the movement, measured from the x axis of the platform where the robot walks";
+const PUBLISHED_HEAD = ["cm", "angle °", "error %", "extent cm"];
 const PUBLISHED_HELP =
-  "Distance as in the published tables, from the largest displacements of a foot along "
-  + `x and y. This distance is never negative. ${ANGLE_HELP}`;
-const NET_HELP = `Movement of each foot from the first to the last frame. ${ANGLE_HELP}`;
+  "Movement by the definitions of the published tables. Distance, angle and error: from the largest "
+  + "displacements of a foot from its first place along +x and +y, as in thesis Tables 5.2 to 5.8. They are "
+  + "never negative. Extent: from the largest less the smallest x and y, as in thesis Tables A.1 to A.4";
 
-function movementTable(caption, help, figures, plan, columns) {
+function movementTable(caption, help, head, { figures, plan }, columns) {
   const rows = figures.feet.map((foot, index) => [footName(index), ...columns(foot)]);
   rows.push([{ text: "mean" }, ...columns(figures)]);
   if (plan) rows.push([{ text: "planned" }, ...columns(plan.figures)]);
-  return figureTable(caption, help, ["", "cm", "angle °", "error %"], rows);
+  return figureTable(caption, help, ["", ...head], rows);
 }
 
-function iterationTable({ parts }) {
+function iterationTable({ parts, step_mean: step }) {
+  const pace = ({ seconds, speed_mm_s: speed }) => [fixed(seconds, 1), fixed(speed, 2)];
   return figureTable(
-    "Movement in each iteration",
-    "Mean movement of the feet from the first to the last frame of each iteration, with time and speed",
-    ["", "cm", "s", "mm/s"],
-    parts.map((part, index) => [
-      { text: `iteration ${index + 1}` },
-      fixed(part.net_distance, 2),
-      fixed(part.seconds, 1),
-      fixed(part.speed_mm_s, 2),
-    ]),
+    "Net movement in each iteration",
+    "Mean movement of the feet from the first to the last frame of each iteration, with time and speed. "
+      + "Mean: as “Individual step” in thesis Tables 5.5 to 5.8",
+    ["", "net cm", "angle °", "s", "mm/s"],
+    [
+      ...parts.map((part, index) => [
+        { text: `iteration ${index + 1}` },
+        ...netCells(part).slice(0, 2),
+        ...pace(part),
+      ]),
+      [{ text: "mean" }, distanceText(step.distance), angleText(step.angle_deg), ...pace(step)],
+    ],
   );
 }
 
@@ -71,7 +71,13 @@ function facts(trial) {
     ["By", trial.by || "–"],
     ["Added", clockTime(trial.made)],
     ["Gait", trial.gait_name || "–"],
-    ["Wanted", `${fixed(trial.expected_cm, 1)} cm`],
+    ["Wanted", `${distanceText(trial.expected_cm)} cm`],
+    [
+      "Speed",
+      `${fixed(trial.speed_mm_s, 2)} mm/s, ${fixed(trial.body_lengths_s, 4)} body lengths/s`,
+      "Net distance divided by the time from the first to the last frame. "
+        + "The length of the body is the width of the robot's plate",
+    ],
     ["Frames", `${trial.frames}, ${fixed(trial.frame_rate, 1)} a second`],
     [
       "Gaps",
@@ -230,8 +236,8 @@ const tailParts = (trial, { change, comparison, remove }) =>
     endsLine(trial, change),
     comparison,
     iterationTable(trial),
-    movementTable("Movement as published", PUBLISHED_HELP, trial.figures, trial.plan, published),
-    movementTable("Movement from first to last frame", NET_HELP, trial.figures, trial.plan, net),
+    movementTable("Net movement", NET_HELP, NET_HEAD, trial, netCells),
+    movementTable("Movement as published", PUBLISHED_HELP, PUBLISHED_HEAD, trial, publishedCells),
     slipTable(trial),
     filesLine(trial, remove),
   ].filter(Boolean);

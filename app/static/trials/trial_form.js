@@ -2,7 +2,7 @@
 
 import { h } from "../lib/dom.js";
 import { textOf } from "../lib/file_text.js";
-import { clockTime } from "../lib/format.js";
+import { clockTime, counted } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
 
@@ -137,6 +137,31 @@ function pixelFields() {
   };
 }
 
+/** The files with the times of the frames, where the rate of a film varies. */
+const clockField = () =>
+  field(
+    "Frame times",
+    "For films whose frame rate varies: choose for each track file one file with the time of each frame in "
+      + "seconds, one time per line or in a column called time. The studio pairs the files in the order of "
+      + "their names, and does not use the frame rate",
+    { type: "file", multiple: true, accept: ".csv,.txt,text/csv,text/plain" },
+  );
+
+/** Refuses files of frame times that are more or fewer than the tracks. */
+function requirePairs(tracks, times) {
+  if (times.length && times.length !== tracks.length)
+    throw new Error(
+      `${counted(times.length, "file")} of frame times for ${counted(tracks.length, "track")}. `
+        + "Choose one for each track.",
+    );
+}
+
+const FORM_TEXT =
+  "Choose CSV files with foot tracks. The columns are X_D1, Y_D1, X_D2, …, with one row for each frame. "
+  + "If a foot was not seen in a frame, its cells are empty (tracks in centimetres) or 0 (tracks in pixels).";
+
+const inOrder = ({ files }) => [...files].sort((a, b) => a.name.localeCompare(b.name));
+
 /**
  * Builds the form.
  * @param {Object} page
@@ -157,19 +182,24 @@ export function trialForm({ store, all, done }) {
     "Frame rate of the recording. The files do not contain the frame rate",
     FRAME_RATE,
   );
+  const clocks = clockField();
   const inPixels = pixelFields();
   const walk = walkFields(store);
 
   const keep = attempt(async (event) => {
     event.preventDefault();
     const pixels = inPixels.value();
+    const [tracks, times] = [files, clocks.input].map(inOrder);
+    requirePairs(tracks, times);
     const added = [];
-    for (const file of files.files) {
+    for (const [index, file] of tracks.entries()) {
       added.push(
         await trialApi.add({
           name: file.name.replace(/\.csv$/i, ""),
           csv: await textOf(file),
-          frame_rate: rate.input.valueAsNumber,
+          ...(times.length
+            ? { frame_times: await textOf(times[index]) }
+            : { frame_rate: rate.input.valueAsNumber }),
           pixels,
           ...walk.values(),
         }),
@@ -186,17 +216,12 @@ export function trialForm({ store, all, done }) {
     "form",
     { class: "trial-form", on: { submit: keep } },
     h("button", { type: "button", class: "link", text: "All trials", on: { click: all } }),
-    h("p", {
-      class: "quiet",
-      text:
-        "Choose CSV files with foot tracks. The columns are X_D1, Y_D1, X_D2, …, with one row for each "
-        + "frame. If a foot was not seen in a frame, its cells are empty (tracks in centimetres) or 0 "
-        + "(tracks in pixels).",
-    }),
+    h("p", { class: "quiet", text: FORM_TEXT }),
     h("label", {}, h("span", { text: "Files" }), files),
     expected,
     iterations,
     rate.label,
+    clocks.label,
     over,
     inPixels.element,
     h("button", { class: "primary", text: "Add trials" }),

@@ -7,6 +7,7 @@ import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
 import { unreadableRow } from "../shell/storage_notice.js";
+import { NET_HEAD, NET_HELP, distanceText, netCells } from "./trial_words.js";
 
 const COLUMNS = [
   {
@@ -16,10 +17,12 @@ const COLUMNS = [
       "Gait, and its step length per iteration in cm. "
       + "For trials without a plan, this is the wanted step length",
   },
-  { key: "distance", text: "cm", help: "Distance as the published tables define it. Mean over the trials" },
-  { key: "error_percent", text: "error %", help: "Deviation from the wanted distance, in %" },
-  { key: "angle_deg", text: "angle °", help: "Direction of the movement on the platform, in degrees" },
-  { key: "speed_mm_s", text: "mm/s", help: "Mean speed over an iteration" },
+  ...["net_distance", "net_angle_deg", "net_error_percent"].map((key, index) => ({
+    key,
+    text: NET_HEAD[index],
+    help: `Mean over the trials. ${NET_HELP}`,
+  })),
+  { key: "speed_mm_s", text: "mm/s", help: "Net distance divided by the time. Mean over the trials" },
 ];
 
 const order = { key: "gait_name", up: true };
@@ -37,7 +40,7 @@ function sparkline({ distances, expected_cm: wanted }) {
       class: "sparkline",
       viewBox: `0 0 ${width} ${height}`,
       role: "img",
-      "aria-label": `Distances ${distances.map((value) => fixed(value, 1)).join(", ")} cm`,
+      "aria-label": `Net distances ${distances.map(distanceText).join(", ")} cm`,
     },
     svg("line", { x1: 0, x2: width, y1: y(wanted), y2: y(wanted) }),
     svg("polyline", { points: distances.map((value, index) => `${x(index)},${y(value)}`).join(" ") }),
@@ -45,8 +48,8 @@ function sparkline({ distances, expected_cm: wanted }) {
   );
 }
 
-const spread = (value, by, decimals) =>
-  by === null ? fixed(value, decimals) : `${fixed(value, decimals)} ± ${fixed(by, decimals)}`;
+const spread = (value, by) =>
+  by === null ? distanceText(value) : `${distanceText(value)} ± ${distanceText(by)}`;
 
 /** A gait's name with its step, and with the iterations where two rows differ only in them. */
 function nameOf(group, groups) {
@@ -78,8 +81,10 @@ function compareRow(group, groups, band) {
       h("span", { text: name }),
       h("span", { class: "more quiet" }, `× ${group.trials.length}`, sparkline(group), show),
     ),
-    h("td", { text: spread(group.distance, group.distance_spread, 1) }),
-    ...[group.error_percent, group.angle_deg].map((value) => h("td", { text: fixed(value, 0) })),
+    h("td", { text: spread(group.net_distance, group.net_distance_spread) }),
+    ...netCells(group)
+      .slice(1)
+      .map((text) => h("td", { text })),
     h("td", { text: fixed(group.speed_mm_s, 2) }),
   );
 }
@@ -183,7 +188,7 @@ function trialRow(trial, open) {
       "span",
       { class: "run-line" },
       h("b", { text: trial.name }),
-      h("span", { text: `${fixed(trial.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm` }),
+      h("span", { text: `${distanceText(trial.net_distance)} of ${distanceText(trial.expected_cm)} cm` }),
     ),
     h(
       "span",

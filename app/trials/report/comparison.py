@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from app.common.json import Json
-from app.trials.report.page import moment, number, plot, table, text
+from app.trials.report.page import NET_HEAD, moment, net_cells, number, plot, table, text
 from app.trials.report.plots import band_from_above
 from app.trials.service import compared
 from core.errors import InputError
@@ -64,20 +64,22 @@ def _compared_table(groups: Sequence[Mapping[str, Any]]) -> str:
             text(_group_name(group)),
             [
                 str(len(group["trials"])),
-                number(group["expected_cm"], 1),
-                spread(group, "distance", 2),
-                spread(group, "angle_deg", 0),
-                spread(group, "error_percent", 0),
+                number(group["expected_cm"], 2),
                 spread(group, "net_distance", 2),
+                spread(group, "net_angle_deg", 1),
+                spread(group, "net_error_percent", 0),
+                spread(group, "distance", 2),
+                spread(group, "extent_distance", 2),
                 spread(group, "speed_mm_s", 2),
                 spread(group, "slip_cm", 2),
             ],
         )
         for group in groups
     ]
-    head = ["", "trials", "wanted cm", "cm", "angle °", "error %", "first to last cm", "mm/s", "slip cm"]
+    head = ["", "trials", "wanted cm", *NET_HEAD, "as published cm", "extent cm", "mm/s", "slip cm"]
     return table(
-        "Distance, angle on the platform and error as published; ± is the standard deviation of the trials",
+        "Net movement, from first to last frame, angles on the platform; as published: by the largest "
+        "excursions; ± is the standard deviation of the trials",
         head,
         rows,
     )
@@ -91,11 +93,9 @@ def _trials_table(lines: Sequence[Mapping[str, Any]]) -> str:
             [
                 line["by"] or "–",
                 moment(line["made"]),
-                number(line["distance"], 2),
-                number(line["angle_deg"], 0),
-                number(line["error_percent"], 0),
+                *net_cells(line),
             ],
         )
         for line in lines
     ]
-    return table("Trials, angles on the platform", ["", "by", "added", "cm", "angle °", "error %"], rows)
+    return table("Net movement of the trials, angles on the platform", ["", "by", "added", *NET_HEAD], rows)

@@ -2,7 +2,7 @@
 
 import base64
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from html import escape
 
@@ -12,6 +12,8 @@ from app.export.svg import svg
 from core.data.tables import package_files
 
 MINUS = "\u2212"
+NET_HEAD = ("net cm", "angle °", "error %")
+"""Heads of the columns of a net movement, as on the page."""
 
 
 def page(title: str, parts: Iterable[str], origin: str) -> str:
@@ -42,6 +44,15 @@ def number(value: float | None, decimals: int) -> str:
         return "–"
     # Adding 0 turns a rounded −0 into 0.
     return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
+
+
+def net_cells(movement: Mapping[str, float]) -> list[str]:
+    """The cells of a net movement."""
+    return [
+        number(movement["net_distance"], 2),
+        number(movement["net_angle_deg"], 1),
+        number(movement["net_error_percent"], 0),
+    ]
 
 
 def facts(pairs: Iterable[tuple[str, str]]) -> str:

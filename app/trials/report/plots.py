@@ -85,7 +85,7 @@ def ways_over_time(lines: Mapping[str, tuple[Floats, Floats]], colours: Sequence
             rows = _thinned(np.column_stack([times, ways[:, foot]]))
             shapes += _line([place(float(t), float(way)) for t, way in rows], colour, name)
     ends = ", ".join(f"{name} {ways[-1].mean():.2f} cm" for name, (_, ways) in lines.items())
-    return _drawing(WIDE, TALL, "Ways of the feet", f"Mean way at the end: {ends}.", shapes)
+    return _drawing(WIDE, TALL, "Ways of the feet", f"Mean along the tracked direction: {ends}.", shapes)
 
 
 def band_from_above(feet: Sequence[Mapping[str, Any]], colours: Sequence[str]) -> Drawing:

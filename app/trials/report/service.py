@@ -2,7 +2,7 @@
 
 import hashlib
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,16 +11,36 @@ from app.gaits.verdict_views import override_words
 from app.runs.plan_json import ran_plan
 from app.runs.service import RunService
 from app.trials.comparison import TrialComparison
+from app.trials.figures import ROBOT
 from app.trials.photos import TrialPhotos
-from app.trials.record import ROBOT, TrialRecord
+from app.trials.record import TrialRecord
 from app.trials.report.comparison import compared_parts
-from app.trials.report.page import facts, foot_name, footer, moment, number, page, photo, plot, table, text
+from app.trials.report.page import (
+    NET_HEAD,
+    facts,
+    foot_name,
+    footer,
+    moment,
+    net_cells,
+    number,
+    page,
+    photo,
+    plot,
+    table,
+    text,
+)
 from app.trials.report.plots import ways_from_above, ways_over_time
 from app.trials.service import TrialService
 from core.arrays import Floats
 from core.errors import FootfallError
 from core.robot.model import load_robot
 from core.vision.track import FootTrack
+
+_PUBLISHED = (
+    "Movement as published: largest excursions (thesis chapter 5) and extents (Tables A.1 to A.4), angles on "
+    "the platform"
+)
+_PUBLISHED_HEAD = ("cm", "angle °", "error %", "extent cm")
 
 _LINES = {"tracked": "solid", "simulated": "dashed", "planned": "dotted"}
 
@@ -75,11 +95,11 @@ class TrialReportService:
                 "time",
                 f"Ways over time, along the direction in which the tracked feet went. {key}",
             ),
-            _iterations(summary["parts"]),
+            _iterations(summary),
             self._movements(
-                "Movement as published (largest excursions), angles on the platform", summary, ""
+                "Net movement, from first to last frame, angles on the platform", NET_HEAD, summary, net_cells
             ),
-            self._movements("Movement, first to last frame, angles on the platform", summary, "net_"),
+            self._movements(_PUBLISHED, _PUBLISHED_HEAD, summary, _published_cells),
             self._slips(summary["slip"]),
             *self._gaps(summary, record),
             *self._pictures(trial),
@@ -93,17 +113,19 @@ class TrialReportService:
         lines = self._service.lines()
         return page("Gaits compared", compared_parts(lines, self._comparison.band, self._colours), footer())
 
-    def _movements(self, caption: str, summary: Mapping[str, Any], kind: str) -> str:
-        def cells(movement: Mapping[str, float]) -> list[str]:
-            keys = (f"{kind}distance", f"{kind}angle_deg", f"{kind}error_percent")
-            return [number(movement[key], decimals) for key, decimals in zip(keys, (2, 1, 0), strict=True)]
-
+    def _movements(
+        self,
+        caption: str,
+        head: Sequence[str],
+        summary: Mapping[str, Any],
+        cells: Callable[[Mapping[str, float]], list[str]],
+    ) -> str:
         figures = summary["figures"]
         rows = [(foot_name(i, self._colours), cells(foot)) for i, foot in enumerate(figures["feet"])]
         rows.append(("mean", cells(figures)))
         if summary["plan"] is not None:
             rows.append(("planned", cells(summary["plan"]["figures"])))
-        return table(caption, ["", "cm", "angle °", "error %"], rows)
+        return table(caption, ["", *head], rows)
 
     def _slips(self, slip: Sequence[Sequence[float]]) -> str:
         rows = [
@@ -165,6 +187,8 @@ def _words(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     yield "Added", moment(summary["made"])
     yield "Gait", summary["gait_name"] or "–"
     yield "Wanted", f"{number(summary['expected_cm'], 2)} cm in {summary['iterations']} iterations"
+    lengths = number(summary["body_lengths_s"], 4)
+    yield "Speed", f"{number(summary['speed_mm_s'], 2)} mm/s, {lengths} body lengths/s"
     yield "Ends of iterations", _ENDS[summary["ends_from"]]
     yield "Frames", f"{summary['frames']}, {number(summary['frame_rate'], 1)} a second"
     yield (
@@ -184,29 +208,30 @@ def _beside_table(rows: Sequence[Mapping[str, Any]]) -> str:
     cells = [
         (
             row["source"],
-            [
-                number(row["seconds"], 1),
-                number(row["net_distance"], 2),
-                number(row["net_angle_deg"], 1),
-                number(row["net_error_percent"], 0),
-                number(row["gap_mm"], 1),
-            ],
+            [number(row["seconds"], 1), *net_cells(row), number(row["gap_mm"], 1)],
         )
         for row in rows
     ]
-    head = ["", "s", "cm", "angle °", "error %", "feet from tracked, mm"]
-    return table("Mean of the feet, first to last frame, angles on the platform", head, cells)
+    head = ["", "s", *NET_HEAD, "feet from tracked, mm"]
+    return table("Net movement, mean of the feet, angles on the platform", head, cells)
 
 
-def _iterations(parts: Sequence[Mapping[str, Any]]) -> str:
+def _published_cells(movement: Mapping[str, float]) -> list[str]:
+    keys = {"distance": 2, "angle_deg": 1, "error_percent": 0, "extent_distance": 2}
+    return [number(movement[key], decimals) for key, decimals in keys.items()]
+
+
+def _iterations(summary: Mapping[str, Any]) -> str:
+    def pace(part: Mapping[str, float]) -> list[str]:
+        return [number(part["seconds"], 1), number(part["speed_mm_s"], 2)]
+
     rows = [
-        (
-            f"iteration {index + 1}",
-            [number(part["net_distance"], 2), number(part["seconds"], 1), number(part["speed_mm_s"], 2)],
-        )
-        for index, part in enumerate(parts)
+        (f"iteration {index}", [*net_cells(part)[:2], *pace(part)])
+        for index, part in enumerate(summary["parts"], 1)
     ]
-    return table("Iterations, first to last", ["", "cm", "s", "mm/s"], rows)
+    step = summary["step_mean"]
+    rows.append(("mean", [number(step["distance"], 2), number(step["angle_deg"], 1), *pace(step)]))
+    return table("Net movement in each iteration", ["", "net cm", "angle °", "s", "mm/s"], rows)
 
 
 def _astray(summary: Mapping[str, Any]) -> Iterator[str]:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from core.robot.model import load_robot
 from core.vision.track_csv import format_track_csv
 from tests.support.command import run, run_json
 from tests.support.reference import reference_path
@@ -59,3 +60,46 @@ def test_what_cannot_be_used_is_refused_with_a_sentence(
     status, answer = run_json(capsys, "trial", track_file(tmp_path, 1.0), *words)
     assert status == 2
     assert reason in answer["error"]
+
+
+def test_steps_have_the_net_figures_of_each_iteration_and_their_mean(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file = track_file(tmp_path, 1.0)
+    _, answer = run_json(capsys, "trial", file, "--expect", "3", "--iterations", "3")
+    trial = answer["files"][0]
+    for step, part in zip(trial["steps"], trial["iterations"], strict=True):
+        assert step["distance"] == part["net_distance"]
+        assert step["angle_deg"] == part["net_angle_deg"]
+        assert step["seconds"] == part["seconds"]
+    assert trial["step_mean"]["distance"] == pytest.approx(1.0)
+    assert answer["mean"]["step_mean"] == trial["step_mean"]
+    length = load_robot("deltawalker").shape.plate_across * 1000.0
+    speed = trial["net_distance"] * 10.0 / trial["seconds"]
+    assert trial["body_lengths_s"] == pytest.approx(speed / length)
+    assert answer["mean"]["body_lengths_s"] == trial["body_lengths_s"]
+    _, answer = run_json(capsys, "trial", file, "--expect", "3")
+    assert (answer["files"][0]["steps"], answer["files"][0]["step_mean"]) == ([], None)
+    assert answer["mean"]["body_lengths_s"] == trial["body_lengths_s"]
+
+
+def test_frame_times_time_each_file(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    files = [track_file(tmp_path, 1.0), track_file(tmp_path, 1.2, "other.csv")]
+    clocks = []
+    for index, rate in enumerate((10.0, 20.0)):
+        path = tmp_path / f"times{index}.txt"
+        path.write_text("".join(f"{frame / rate}\n" for frame in range(1248)))
+        clocks += ["--frame-times", str(path)]
+    words = [*files, "--expect", "3", "--iterations", "3"]
+    _, answer = run_json(capsys, "trial", *words, *clocks)
+    assert [one["seconds"] for one in answer["files"]] == pytest.approx([124.7, 62.35])
+    assert sum(step["seconds"] for step in answer["files"][1]["steps"]) == pytest.approx(62.35)
+    refusals = {
+        "1 files of frame times for 2 tracks": clocks[:2],
+        "Give either": [*clocks, "--frame-rate", "13"],
+        "gone.txt cannot be read": [*clocks[:2], "--frame-times", str(tmp_path / "gone.txt")],
+    }
+    for sentence, more in refusals.items():
+        status, answer = run_json(capsys, "trial", *words, *more)
+        assert status == 2
+        assert sentence in answer["error"]

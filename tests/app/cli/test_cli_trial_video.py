@@ -40,8 +40,11 @@ def test_a_film_is_tracked_and_its_figures_are_printed(
     assert status == 0
     assert answer["mean"]["net_distance"] == pytest.approx(1.2, abs=0.03)
     assert answer["files"][0]["frames"] == len(TRACK.feet[::3])
-    _, _, said = run(capsys, *words)
+    clock = tmp_path / "times.txt"
+    clock.write_text("".join(f"{frame * 3 / RATE}\n" for frame in range(len(TRACK.feet[::3]))))
+    _, text, said = run(capsys, *words, "--frame-times", str(clock))
     assert f"{len(TRACK.feet[::3])} frames at 13.0 a second" in said
+    assert f"whole: {answer['files'][0]['seconds'] * 3:.1f} s" in text
 
 
 @pytest.mark.heavy

@@ -129,3 +129,24 @@ def test_beside_an_unknown_trial_there_is_nothing(studio: StudioProcess, what: s
 def test_reports_come_as_files(studio: StudioProcess, path: str) -> None:
     assert studio.text(f"{path}/report").startswith("<!doctype html>")
     assert "Gaits compared" in studio.text("/api/trials/report")
+
+
+def test_frame_times_time_a_track_and_are_kept_with_it(studio: StudioProcess) -> None:
+    count = CSV.count("\n") - 1
+    times = [frame / 13.0 if frame < 100 else 100 / 13.0 + (frame - 100) / 20.0 for frame in range(count)]
+    body = {**TRIAL, "frame_times": "time (s)\n" + "\n".join(map(repr, times))}
+    trial = studio.ask("POST", "/api/trials", body).content
+    assert trial["seconds"] == pytest.approx(times[-1])
+    assert studio.ask("GET", f"/api/trials/{trial['id']}").content["seconds"] == trial["seconds"]
+    assert (trial["source"], trial["remarks"]) == (None, [])
+    assert studio.ask("DELETE", f"/api/trials/{trial['id']}").status == 200
+    refusals: dict[str, dict[str, Any]] = {
+        "frame times of on glass:2: 0 s does not come after": {"frame_times": "0\n0\n"},
+        f"has 2 times, and on glass has {count} frames": {"frame_times": "0\n0.1\n"},
+        "holds 0 times": {"frame_times": ""},
+        "either frame_rate or frame_times": {"frame_times": "0\n0.1\n", "frame_rate": 13.0},
+    }
+    for sentence, changes in refusals.items():
+        answer = studio.ask("POST", "/api/trials", {**TRIAL, **changes})
+        assert answer.status == 422
+        assert sentence in answer.content["error"]

@@ -11,8 +11,8 @@ On the left stands a figure as the text has it, or the heading of a table's colu
 to print it to its last digit; with `~`, for searches that end elsewhere on another processor, within a tenth.
 In a path, `[own gait]` are the rows that have this key, `[gait=walk]` those in which it has this value, `[0]`
 is the first one, and `[*]` are all. `min`, `max`, `sum` or `count` before it make one figure of several.
-`slow:` before the command marks one that is not quick; `machine:` one whose figures depend on the machine,
-so that none are listed.
+`slow:` before the command marks one that is not quick; `machine:` one whose figures depend on the machine, or
+a test that compares them itself, so that none are listed.
 """
 
 import re

@@ -31,8 +31,11 @@ def run_documents(options: Namespace) -> int:
         0 where all agree, `NOT_FIT` where some differ.
 
     Raises:
-        InputError: the documents are not there, are malformed, or quote nothing of a named benchmark.
+        InputError: the documents are not there, are malformed, or quote nothing of a named benchmark; or there is
+            no such folder of published data.
     """
+    if options.reference is not None and not options.reference.is_dir():
+        raise InputError(f"{options.reference} is no folder; name that of the published data.", "--reference")
     found = quotations(ROOT)
     chosen = [quotation for quotation in found if _is_run(quotation, options.names, options.reference)]
     for name in options.names:
@@ -76,7 +79,10 @@ def content_of(command: str, reference: Path | None) -> Json:
     with TemporaryDirectory() as folder:
         environment = os.environ | {"XDG_DATA_HOME": folder}
         for part in command.split("&&"):
-            words = [str(reference) if word == FOLDER else word for word in shlex.split(part)]
+            words = [
+                str(reference.resolve()) if reference and word == FOLDER else word
+                for word in shlex.split(part)
+            ]
             done = subprocess.run(
                 own_command(*words[1:]), cwd=folder, env=environment, capture_output=True, check=False
             )

@@ -89,8 +89,8 @@ def fastest_command(parser: ArgumentParser) -> None:
     set_command(parser, run_fastest, text)
     add = parser.add_argument
     text = (
-        "walk (default), amble, s-gait, c-gait, rotate, another id that `footfall gaits` lists, or a gait "
-        "file: foot order and direction"
+        "walk (default), amble, s-gait, c-gait, rotate, another id that `footfall gaits` lists as optimised, "
+        "drawn or poses, or a gait file: foot order and direction"
     )
     add("gait", nargs="?", default=None, help=text)
     add(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
 
+from app.cli.bench_documents import content_of
 from app.common.json import Json
 from tests.support.command import run, run_json
 
@@ -32,8 +34,8 @@ ANSWERS: dict[str, Json] = {
 }
 
 
-@pytest.fixture(autouse=True)
-def _documents(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def documents(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "docs").mkdir()
     (tmp_path / "README.md").write_text(README)
     (tmp_path / "docs" / "figures.md").write_text(FIGURES)
@@ -41,6 +43,7 @@ def _documents(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.cli.bench_documents.content_of", lambda command, _: ANSWERS[command])
 
 
+@pytest.mark.usefixtures("documents")
 def test_the_quick_commands_are_run_and_the_others_listed(capsys: pytest.CaptureFixture[str]) -> None:
     status, content = run_json(capsys, "bench", "--docs")
     assert status == 0
@@ -52,6 +55,7 @@ def test_the_quick_commands_are_run_and_the_others_listed(capsys: pytest.Capture
     ]
 
 
+@pytest.mark.usefixtures("documents")
 def test_what_differs_is_named_with_status_4(capsys: pytest.CaptureFixture[str]) -> None:
     status, text, _ = run(capsys, "bench", "--docs", "--reference", ".")
     assert status == 4
@@ -60,11 +64,13 @@ def test_what_differs_is_named_with_status_4(capsys: pytest.CaptureFixture[str])
     assert "2 figures of 2 commands were compared; 1 differ" in text
 
 
+@pytest.mark.usefixtures("documents")
 def test_a_named_benchmark_is_run_however_long_it_takes(capsys: pytest.CaptureFixture[str]) -> None:
     status, content = run_json(capsys, "bench", "physics", "--docs")
     assert (status, content["compared"], content["differ"]) == (0, 1, [])
 
 
+@pytest.mark.usefixtures("documents")
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
@@ -72,6 +78,7 @@ def test_a_named_benchmark_is_run_however_long_it_takes(capsys: pytest.CaptureFi
         ("frontier --docs", "no document names this command"),
         ("walk --docs", "name its folder after --reference"),
         ("nothing --docs", "There is no benchmark “nothing”"),
+        ("--docs --reference nowhere", "nowhere is no folder"),
         ("--docs --markdown", "--markdown does not go with --docs"),
         ("--docs --report page.html", "--report does not go with --docs"),
         ("fastest --docs --grid", "--grid does not go with --docs"),
@@ -85,6 +92,7 @@ def test_what_cannot_be_compared_is_refused(
     assert sentence in error
 
 
+@pytest.mark.usefixtures("documents")
 def test_an_installed_program_says_where_the_documents_are(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
@@ -92,3 +100,29 @@ def test_an_installed_program_says_where_the_documents_are(
     status, _, error = run(capsys, "bench", "--docs")
     assert status == 2
     assert "in its source tree" in error
+
+
+PRINTED = "import json, os, sys; print(json.dumps({'words': sys.argv[1:], 'files': os.listdir()}))"
+
+
+def replace_commands(monkeypatch: pytest.MonkeyPatch, program: str) -> None:
+    """Has every command be another Python program."""
+    monkeypatch.setattr(
+        "app.cli.bench_documents.own_command", lambda *words: [sys.executable, "-c", program, *words]
+    )
+
+
+def test_commands_run_in_one_empty_folder_and_the_last_one_is_read(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    replace_commands(monkeypatch, PRINTED)
+    command = "footfall optimise walk -o w.csv && footfall bench walk --reference FOLDER 'two words' --json"
+    content = content_of(command, Path("."))
+    words = ["bench", "walk", "--reference", str(tmp_path), "two words", "--json"]
+    assert content == {"words": words, "files": []}
+
+
+def test_a_command_that_prints_no_json_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
+    replace_commands(monkeypatch, "import sys; sys.exit('No such gait.')")
+    assert content_of("footfall gaits --json", None) == {"error": "status 1, No such gait."}

@@ -31,8 +31,8 @@ def run_documents(options: Namespace) -> int:
         0 where all agree, `NOT_FIT` where some differ.
 
     Raises:
-        InputError: the documents are not there, are malformed, or quote nothing of a named benchmark; or there is
-            no such folder of published data.
+        InputError: the documents are not there, are malformed, or quote nothing of a named benchmark; or the
+            folder of published data is not there.
     """
     if options.reference is not None and not options.reference.is_dir():
         raise InputError(f"{options.reference} is no folder; name that of the published data.", "--reference")
@@ -76,13 +76,11 @@ def content_of(command: str, reference: Path | None) -> Json:
         reference: stands in place of `FOLDER`.
     """
     content: Json = {}
+    data = FOLDER if reference is None else str(reference.resolve())
     with TemporaryDirectory() as folder:
         environment = os.environ | {"XDG_DATA_HOME": folder}
         for part in command.split("&&"):
-            words = [
-                str(reference.resolve()) if reference and word == FOLDER else word
-                for word in shlex.split(part)
-            ]
+            words = [data if word == FOLDER else word for word in shlex.split(part)]
             done = subprocess.run(
                 own_command(*words[1:]), cwd=folder, env=environment, capture_output=True, check=False
             )

@@ -102,7 +102,10 @@ def test_an_installed_program_says_where_the_documents_are(
     assert "in its source tree" in error
 
 
-PRINTED = "import json, os, sys; print(json.dumps({'words': sys.argv[1:], 'files': os.listdir()}))"
+PRINTED = (
+    "import json, os, sys; print(json.dumps({'words': sys.argv[1:], 'files': os.listdir()})); "
+    "open('made', 'w').close()"
+)
 
 
 def replace_commands(monkeypatch: pytest.MonkeyPatch, program: str) -> None:
@@ -120,7 +123,7 @@ def test_commands_run_in_one_empty_folder_and_the_last_one_is_read(
     command = "footfall optimise walk -o w.csv && footfall bench walk --reference FOLDER 'two words' --json"
     content = content_of(command, Path("."))
     words = ["bench", "walk", "--reference", str(tmp_path), "two words", "--json"]
-    assert content == {"words": words, "files": []}
+    assert content == {"words": words, "files": ["made"]}
 
 
 def test_a_command_that_prints_no_json_says_why(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -21,6 +21,7 @@ BENCHMARKS = {
     "physics": "physics.tables:bench_physics",
     "learning": "physics.learning:bench_learning",
     "bridge": "robot.all:bench_bridge",
+    "walk": "robot.walk:bench_walk",
     "law": "robot.law:bench_law",
     "fastest": "physics.fastest:bench_fastest",
     "moves": "robot.moves:bench_moves",

@@ -34,7 +34,7 @@ def add_bench_options(parser: argparse.ArgumentParser) -> None:
     )
     add("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
     add("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
-    text = "folder of published data (physics, learning)"
+    text = "folder of published data (physics, walk, moves, learning)"
     add("--reference", type=Path, default=None, help=text)
     text = (
         "file to write: HTML page with plots (physics), or picture with its data beside it (moves, which has "
@@ -42,6 +42,11 @@ def add_bench_options(parser: argparse.ArgumentParser) -> None:
     )
     add("--report", type=file_path, default=None, help=text)
     add("--markdown", action="store_true", help="print tables as Markdown")
+    text = (
+        "compare the figures that README and docs quote with what their commands print now: of the quick "
+        "commands, or of the named benchmarks, however long they take"
+    )
+    add("--docs", action="store_true", help=text)
     text = (
         "search a grid of orders, steps, margins and stop bounds in mid-walk instead of the walks (fastest)"
     )
@@ -98,6 +103,20 @@ def grid_of(options: Namespace) -> Grid | None:
     return Grid(**limits)
 
 
+def require_no_measuring(options: Namespace) -> None:
+    """Makes sure that no option of a measurement stands beside `--docs`.
+
+    Raises:
+        InputError: one does.
+    """
+    for name in ("report", "markdown", "grid", *_LIMITS):
+        if getattr(options, name):
+            option = f"--{name.replace('_', '-')}"
+            raise InputError(
+                f"{option} does not go with --docs, which measures nothing; leave it out.", option
+            )
+
+
 def reports_of(options: Namespace) -> dict[str, Path]:
     """The report that is asked, by the benchmark that writes it; `moves` writes one only where it is named.
 
@@ -115,5 +134,8 @@ def reports_of(options: Namespace) -> dict[str, Path]:
             "--report",
         )
     for name in names:
-        (require_page if name == PHYSICS else require_picture)(report)
+        if name == PHYSICS:
+            require_page(report)
+        else:
+            require_picture(report, options.reference)
     return dict.fromkeys(names, report)

@@ -7,7 +7,16 @@ from typing import Any
 from app.bench import BENCHMARKS, BY_NAME_ONLY, measured
 from app.bench.common.measure import EndedEarly, Row, conditions
 from app.bench.solvers.fastest_grid import bench_fastest_grid
-from app.cli.bench_options import GRID, MOVES, PHYSICS, add_bench_options, grid_of, reports_of
+from app.cli.bench_documents import run_documents
+from app.cli.bench_options import (
+    GRID,
+    MOVES,
+    PHYSICS,
+    add_bench_options,
+    grid_of,
+    reports_of,
+    require_no_measuring,
+)
 from app.cli.common.command import set_command
 from app.cli.common.output import INTERRUPTED, end_on_signals, note, show
 from app.cli.common.progress import clear_line
@@ -23,7 +32,7 @@ def bench_command(parser: ArgumentParser) -> None:
 
 
 def run_bench(options: Namespace) -> int:
-    """Runs benchmarks and prints their conditions.
+    """Runs benchmarks and prints their conditions; with `--docs` compares the documents with them.
 
     Where a signal ends one that has rows by then, they are printed and no further one is run.
     """
@@ -31,11 +40,15 @@ def run_bench(options: Namespace) -> int:
     unknown = [name for name in options.names if name not in BENCHMARKS]
     if unknown:
         raise InputError(f"There is no benchmark “{unknown[0]}”; choose of {', '.join(BENCHMARKS)}.", "NAME")
+    if options.docs:
+        require_no_measuring(options)
+        return run_documents(options)
     reports = reports_of(options)
     arguments: dict[str, tuple[Any, ...]] = {
         "edits": (options.count, options.seed),
         PHYSICS: (options.reference, reports.get(PHYSICS)),
-        MOVES: (reports.get(MOVES),),
+        MOVES: (options.reference, reports.get(MOVES)),
+        "walk": (options.reference,),
         "learning": (options.reference,),
     }
     grid = grid_of(options)

@@ -88,7 +88,10 @@ def fastest_command(parser: ArgumentParser) -> None:
     text = "The walk with the most millimetres a second of the robot's own time, as waypoints."
     set_command(parser, run_fastest, text)
     add = parser.add_argument
-    text = "walk (default), amble, s-gait, c-gait, rotate, or a gait file: foot order and direction"
+    text = (
+        "walk (default), amble, s-gait, c-gait, rotate, another id that `footfall gaits` lists as optimised, "
+        "drawn or poses, or a gait file: foot order and direction"
+    )
     add("gait", nargs="?", default=None, help=text)
     add(
         "--order",

@@ -63,7 +63,11 @@ _REDRAW = ("order", "phase_knots", "closing_knots")
 def add_gait_options(parser: ArgumentParser) -> None:
     """A gait and everything that can be asked of it; what is left out stays as the gait has it."""
     add = parser.add_argument
-    add("gait", help="walk, amble, s-gait, c-gait, rotate, or a gait file")
+    add(
+        "gait",
+        help="walk, amble, s-gait, c-gait, rotate, another id that `footfall gaits` lists as optimised or "
+        "drawn, or a gait file",
+    )
     add_robot(parser, "default the gait's own; with other legs it is drawn anew")
     travel = parser.add_mutually_exclusive_group()
     travel.add_argument("--step", type=number(0.0, MAX_STEP, "m"), default=None, help="m an iteration")

@@ -9,7 +9,7 @@ import numpy as np
 from app.bench.common.measure import Row
 from app.bench.robot.moves_picture import moves_picture
 from app.bench.robot.timed_board import TimedBoard, TimedMessage
-from app.bench.robot.walk import PUBLISHED, as_published
+from app.bench.robot.walk import as_published, published_path
 from app.bench.robot.walked_moves import DECIMALS, Move, WalkedMoves, walks_content
 from app.export.svg import svg
 from app.export.trajectory_files import read_trajectory
@@ -28,36 +28,41 @@ CYCLES_BEFORE = 1
 """Cycles in mid-walk that the board walks before the one that is shown."""
 
 
-def bench_moves(report: Path | None = None) -> list[Row]:
+def bench_moves(reference: Path | None = None, report: Path | None = None) -> list[Row]:
     """Lets the board walk the published walk and the fastest one, and says where their seconds go.
 
     Args:
+        reference: folder with the published data; without it the fastest walk alone is walked.
         report: SVG picture to write, with what it shows as JSON beside it; None for neither.
 
     Raises:
-        InputError: there is a picture to write, and it cannot be (see `require_picture`).
+        InputError: there is a picture to write, and it cannot be (see `require_picture`); or the published
+            walk is not in the folder.
     """
     if report is not None:
-        require_picture(report)
-    walks = (published_walk(), fastest_walk()) if PUBLISHED.exists() else (fastest_walk(),)
+        require_picture(report, reference)
+    walks = (fastest_walk(),) if reference is None else (published_walk(reference), fastest_walk())
     if report is not None:
         data = json.dumps(walks_content(walks)) + "\n"
         write_named(report, moves_svg(walks), report.with_suffix(".json"), data)
     return [_row(walk) for walk in walks]
 
 
-def require_picture(report: Path) -> None:
+def require_picture(report: Path, reference: Path | None) -> None:
     """Makes sure that the picture can be drawn and written.
 
     Raises:
-        InputError: its name does not fit, its folder is not there, or no published walk is at hand.
+        InputError: its name does not fit, its folder is not there, or no published data is named.
     """
     if report.suffix != ".svg":
         raise InputError(f"{report} is no picture; end its name in .svg.", "--report")
     if not report.parent.is_dir():
         raise InputError(f"{report.parent} is no folder; name a file in one that exists.", "--report")
-    if not PUBLISHED.exists():
-        raise InputError(f"The published walk is not at {PUBLISHED}; leave out --report.", "--report")
+    if reference is None:
+        raise InputError(
+            "The picture shows the published walk too; name the published data's folder after --reference.",
+            "--reference",
+        )
 
 
 def moves_svg(walks: tuple[WalkedMoves, ...]) -> str:
@@ -65,10 +70,17 @@ def moves_svg(walks: tuple[WalkedMoves, ...]) -> str:
     return svg(moves_picture(walks, load_robot(ROBOT).colours), "moves")
 
 
-def published_walk() -> WalkedMoves:
-    """The published 10 mm walk, one waypoint a sample; the first message finds the robot in its place."""
+def published_walk(reference: Path) -> WalkedMoves:
+    """The published 10 mm walk, one waypoint a sample; the first message finds the robot in its place.
+
+    Args:
+        reference: folder with the published data.
+
+    Raises:
+        InputError: the walk is not there.
+    """
     model = load_robot(ROBOT)
-    read = read_trajectory(PUBLISHED).trajectory
+    read = read_trajectory(published_path(reference)).trajectory
     strokes = as_published(model, read).strokes
     board = TimedBoard(strokes[0])
     timed = [board.timed(row) for row in strokes]

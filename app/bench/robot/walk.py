@@ -13,7 +13,7 @@ from app.export.trajectory_files import read_trajectory
 from core.arrays import Floats
 from core.checks.checked_plan import CheckedPlan
 from core.checks.rules import check_plan
-from core.errors import CheckError
+from core.errors import CheckError, InputError
 from core.gait.gait import Gait, motion_problem, travel_world
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
@@ -27,8 +27,8 @@ from core.wire.waypoint_merging import WaypointPlan, plan_of_knots, plan_waypoin
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus, solve_live
 
-PUBLISHED = Path(__file__).resolve().parents[4] / "shared/reference/trajectories/direction1/walk_a.csv"
-"""The published walk of 10 mm, where it is at hand."""
+PUBLISHED = Path("trajectories") / "direction1" / "walk_a.csv"
+"""The published walk of 10 mm, in the folder of the published data."""
 
 WAYS: tuple[tuple[float, float | None], ...] = ((0.0, None), (0.001, None), (0.001, 1.0), (0.001, 0.8))
 """Merging tolerance in m and stop bound in s of each row."""
@@ -54,30 +54,50 @@ class Walked:
     rise: float
 
 
-def bench_walk(ways: Sequence[tuple[float, float | None]] = WAYS) -> list[Row]:
+def bench_walk(reference: Path | None = None, ways: Sequence[tuple[float, float | None]] = WAYS) -> list[Row]:
     """The published walk and ours of 10 mm in the emulator's published profile, in virtual time.
 
     Args:
+        reference: folder with the published data; without it only our own walks are measured.
         ways: merging tolerance in m and stop bound in s of each row; the first sends one waypoint a sample.
+
+    Raises:
+        InputError: the published walk is not in the folder.
     """
     model = load_robot("deltawalker")
     ordinary = library()["walk"].gait
     published: float | None = None
     rows: list[Row] = []
-    if PUBLISHED.exists():
-        read = read_trajectory(PUBLISHED).trajectory
+    if reference is not None:
+        read = read_trajectory(published_path(reference)).trajectory
         knots = as_published(model, read)
         plans = [plan_of_knots(model, read, knots, *way) for way in ways]
         published = walked(model, plans[0]).seconds
         rows += [_row("published", model, plan, published, "not judged") for plan in plans]
-    else:
-        rows.append({"walk": "published", "note": f"skipped: {PUBLISHED} is not there"})
     for name, gait in (("ours, as built in", ordinary), ("ours, for the firmware", firmware_walk(ordinary))):
         motion = live_motion(model, gait)
         for way in ways:
             plan = plan_waypoints(model, motion, *way)
             rows.append(_row(name, model, plan, published, _judged(model, gait, motion, plan)))
     return rows
+
+
+def published_path(reference: Path) -> Path:
+    """The published walk of 10 mm.
+
+    Args:
+        reference: folder with the published data.
+
+    Raises:
+        InputError: it is not there.
+    """
+    path = reference / PUBLISHED
+    if not path.exists():
+        raise InputError(
+            f"{reference} holds no {PUBLISHED}; name the published data's folder after --reference.",
+            "--reference",
+        )
+    return path
 
 
 def firmware_walk(gait: Gait) -> Gait:

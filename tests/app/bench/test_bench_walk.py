@@ -7,15 +7,17 @@ from functools import cache
 import pytest
 
 from app.bench.common.measure import Row
-from app.bench.robot.walk import PUBLISHED, bench_walk
+from app.bench.robot.walk import bench_walk
 from core.wire.robot_time import OVERRUN
+from tests.support.reference import REFERENCE, reference_path
 
 pytestmark = pytest.mark.heavy
 
 
 @cache
 def rows() -> list[Row]:
-    return bench_walk([(0.0, None), (0.001, None), (0.001, 1.0)])
+    reference = REFERENCE if REFERENCE.exists() else None
+    return bench_walk(reference, [(0.0, None), (0.001, None), (0.001, 1.0)])
 
 
 def row(walk: str, merge_mm: float, bound: float | None) -> Row:
@@ -24,8 +26,8 @@ def row(walk: str, merge_mm: float, bound: float | None) -> Row:
     )
 
 
-@pytest.mark.skipif(not PUBLISHED.exists(), reason=f"the published walk is not at {PUBLISHED}")
 def test_merging_halves_the_published_walk_and_stays_on_its_path() -> None:
+    reference_path("")
     every, merged = row("published", 0.0, None), row("published", 1.0, None)
     assert 29.0 < every["robot_s"] < 30.5
     assert merged["of_published"] <= 0.5

@@ -119,10 +119,9 @@ def test_a_report_that_cannot_be_written_is_refused_before_anything_is_measured(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_picture_needs_the_published_walk(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr("app.bench.robot.moves.PUBLISHED", tmp_path / "walk_a.csv")
-    with pytest.raises(InputError, match="leave out --report"):
-        require_picture(tmp_path / "moves.svg")
+def test_a_picture_needs_the_published_walk(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="--reference"):
+        require_picture(tmp_path / "moves.svg", None)
 
 
 @pytest.mark.parametrize(
@@ -150,8 +149,6 @@ def test_a_report_is_written_by_moves_only_where_they_are_named(
         return [{"figure": 1}]
 
     monkeypatch.setattr("app.cli.commands_bench.measured", measured)
-    (tmp_path / "walk_a.csv").touch()
-    monkeypatch.setattr("app.bench.robot.moves.PUBLISHED", tmp_path / "walk_a.csv")
     monkeypatch.chdir(tmp_path)
-    assert run(capsys, "bench", *names.split(), "--report", "report.svg")[0] == 0
+    assert run(capsys, "bench", *names.split(), "--reference", ".", "--report", "report.svg")[0] == 0
     assert written == {"physics": pages, "moves": pictures}

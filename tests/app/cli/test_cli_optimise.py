@@ -11,9 +11,12 @@ import numpy as np
 import pytest
 
 from app.bench.common.random_gaits import grouped_gait
+from app.cli import main
+from app.cli.gait_options import named_gait
 from app.documents.gait_json import gait_content
 from app.export.trajectory_files import read_trajectory
 from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem
+from core.gait.motion_source import MotionSource, motion_source
 from core.library.library import library
 from core.motion.contact_timeline import timeline_from_rows
 from core.robot.kinematics import walker_strokes
@@ -292,6 +295,16 @@ def test_what_would_help_is_a_command_that_can_be_copied(
     _, text, _ = run(capsys, "optimise", "walk", "--step", "0.034")
     assert "What would help, best first:" in text
     assert "footfall optimise walk --step 0.034 --remedy 1" in text
+
+
+def test_the_help_names_the_gaits_that_can_be_optimised(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["optimise", "--help"])
+    said = " ".join(capsys.readouterr().out.split())
+    assert "another id that `footfall gaits` lists as optimised or drawn" in said
+    for name, entry in library().items():
+        if motion_source(entry.gait) in (MotionSource.OPTIMISED, MotionSource.DRAWN):
+            assert named_gait(name).order == entry.gait.order, name
 
 
 def test_a_remedy_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

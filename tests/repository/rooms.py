@@ -127,6 +127,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/static/learning",
         "app/static/fastest",
         "app/static/atlas",
+        "app/static/published",
         "app/static/lab",
         "app/static/first_steps",
         "app/static",

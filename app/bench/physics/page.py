@@ -5,11 +5,12 @@ from html import escape
 
 import numpy as np
 
-from app.bench.common.published import PublishedRun
-from app.bench.physics.runs import ManualCase, OptimisedCase, Walked
+from app.bench.physics.runs import ManualCase, OptimisedCase
 from app.common.version import VERSION
 from app.export.path_plot import Ways, way_plot
 from app.export.svg import svg
+from app.published.reference import PublishedRun
+from app.published.walked import Walked
 
 FIGURES = {
     ("walk", False): "4.2",

@@ -28,12 +28,13 @@ class Who(StrEnum):
 WITH_REFERENCE = (Who.RECORDED, Who.RUN, Who.TRACK)
 """Columns that need the published data."""
 
-_TITLES = {
+TITLES = {
     Who.OURS: "ours",
     Who.RECORDED: "published motion, our physics",
     Who.RUN: "published run, PyBullet",
     Who.TRACK: "published tracks, our reading",
 }
+"""Origins of figures for a person; a printed figure's is the thesis or the paper."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +145,7 @@ def has_data(table: PublishedTable, who: Who) -> bool:
 def _title(table: PublishedTable, who: Who) -> str:
     if who is Who.PUBLISHED:
         return "paper" if table.kind is Kind.PAPER else "thesis"
-    return _TITLES[who]
+    return TITLES[who]
 
 
 def _row_columns(table: PublishedTable) -> Iterator[Column]:

@@ -38,9 +38,18 @@ def reference_files(table: PublishedTable, row: PublishedRow, reference: Referen
         found += reference.run_paths(gait.family, gait.step, gait.version)
     if has_data(table, Who.TRACK):
         found += reference.track_paths(gait.family, gait.step)
-    if has_data(table, Who.RECORDED):
-        found.append(reference.trajectory_path(gait.family, gait.step, _own_iterations(gait)))
+    motion = recorded_path(table, row, reference)
+    if motion is not None:
+        found.append(motion)
     return tuple(path for path in found if path.is_file())
+
+
+def recorded_path(table: PublishedTable, row: PublishedRow, reference: Reference) -> Path | None:
+    """The file of a row's published motion; None where there is none."""
+    if not has_data(table, Who.RECORDED):
+        return None
+    path = reference.trajectory_path(row.gait.family, row.gait.step, row.gait.motion_iterations)
+    return path if path.is_file() else None
 
 
 def reference_figures(table: PublishedTable, row: PublishedRow, reference: Reference, tools: Tools) -> Json:
@@ -58,7 +67,7 @@ def reference_figures(table: PublishedTable, row: PublishedRow, reference: Refer
         tracks = [_track(path) for path in reference.track_paths(row.gait.family, row.gait.step)]
         if tracks:
             figures[Who.TRACK] = movement_figures(tracks, _wanted(row.gait), row.gait.iterations)
-    if has_data(table, Who.RECORDED):
+    if recorded_path(table, row, reference) is not None:
         figures[Who.RECORDED], ways[Who.RECORDED], sentence = _recorded(table, row.gait, reference, tools)
     kept = {who: way for who, way in ways.items() if way}
     return figures_content({who: part for who, part in figures.items() if part}, sentence, kept)
@@ -66,11 +75,6 @@ def reference_figures(table: PublishedTable, row: PublishedRow, reference: Refer
 
 def _wanted(gait: RowGait) -> float:
     return gait.step * gait.iterations
-
-
-def _own_iterations(gait: RowGait) -> int:
-    """Iterations that the published trajectory holds; the others are runs of it."""
-    return gait.iterations if gait.is_one_motion else 1
 
 
 def _run(table: PublishedTable, row: PublishedRow, reference: Reference) -> tuple[Json, Json, str]:
@@ -101,7 +105,7 @@ def _recorded(
     table: PublishedTable, gait: RowGait, reference: Reference, tools: Tools
 ) -> tuple[Json, Json, str]:
     """The published motion in our physics, its ways, and a remark on what was cut off its strokes."""
-    own = _own_iterations(gait)
+    own = gait.motion_iterations
     problem, cut = published_problem(reference, gait.family, gait.step, physics_of(table.kind), own)
     words = (
         f"Strokes of the published motion are kept within the motors' range, by up to {cut * 1000:.1f} mm."

@@ -8,6 +8,7 @@ from app.published.about import about_table
 from app.published.columns import Column, Who, columns_of, row_cells
 from app.published.entries import Entry, entries_of
 from app.published.figures import SIMULATED, definition_of, joined
+from app.published.opening import sources_of
 from app.published.reference import Reference
 from core.published.tables import PublishedRow, PublishedTable
 
@@ -47,7 +48,7 @@ def table_view(table: PublishedTable, reference: Reference | None, entries: Entr
     return {
         "about": about_table(table, has_reference=has_reference),
         "columns": [asdict(column) for column in columns],
-        "rows": [_row(table, row, columns, entries[row.id], kept) for row in table.rows],
+        "rows": [_row(table, row, columns, entries[row.id], kept, reference) for row in table.rows],
     }
 
 
@@ -57,6 +58,7 @@ def _row(
     columns: Sequence[Column],
     entries: Sequence[Entry],
     kept: Kept,
+    reference: Reference | None,
 ) -> Json:
     contents = [kept[entry.key] for entry in entries if entry.key in kept]
     known = row_cells(row)
@@ -68,6 +70,7 @@ def _row(
         "id": row.id,
         "cells": {column.key: known.get(column.key) for column in columns},
         "state": done,
+        "opens": [source.value for source in sources_of(table, row, reference)],
         "sentence": joined(row.note, *(content["sentence"] for content in contents)),
         "has_plot": table.kind in SIMULATED and any(content["ways"] for content in contents),
     }

@@ -7,17 +7,23 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from app.common.json import Json
+from app.export.svg import svg
 from app.plans.make_plan import Solve
-from app.published.entries import Entry
+from app.published.entries import Entry, entries_of
 from app.published.figures import Tools
+from app.published.opening import Source, opened_gait
+from app.published.plots import row_plot
+from app.published.problems import walker
 from app.published.reference import Reference
 from app.published.reference_folder import ReferenceFolder
 from app.published.rows import Entries, Kept, is_row_done, table_entries, table_view
 from app.simulation.service import SimulationHandle, SimulationTier
 from app.store.tables.published_store import PublishedStore
-from core.errors import FootfallError, SimulationCancelledError, StorageError
+from core.errors import FootfallError, NotFoundError, SimulationCancelledError, StorageError
+from core.gait.gait import Gait
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
+from core.published.gaits import row_title
 from core.published.tables import PublishedTable, published_table, published_tables
 
 _log = logging.getLogger(__name__)
@@ -125,6 +131,32 @@ class PublishedService:
         view = table_view(table, reference, entries, kept)
         rows = [row | self._row_state(table_id, row) for row in view["rows"]]
         return self._line(table, entries, kept) | view | {"rows": rows}
+
+    def plot(self, table_id: str, row_id: str) -> str:
+        """The x–y plot of a row, SVG.
+
+        Raises:
+            NotFoundError: there is no such row, or nothing is computed of which there is a plot.
+        """
+        table = published_table(table_id)
+        row = table.row(row_id)
+        kept = self._store.all()
+        entries = entries_of(table, row, self.reference)
+        contents = [kept[entry.key] for entry in entries if entry.key in kept]
+        drawing = row_plot(table, row, contents, walker().colours)
+        if drawing is None:
+            raise NotFoundError(f"There is no plot of {row_title(row)}; compute {table.name}.", "row")
+        return svg(drawing, f"{table_id}-{row_id}")
+
+    def gait(self, table_id: str, row_id: str, source: Source) -> Gait:
+        """The document of a row's gait.
+
+        Raises:
+            NotFoundError: there is no such row, or its published motion is not at hand.
+            InputError: the file of the published motion cannot be read.
+        """
+        table = published_table(table_id)
+        return opened_gait(table, table.row(row_id), source, self.reference, self._tools.solve)
 
     def compute(self, table_id: str) -> Json:
         """Begins to compute what is missing of a table; where nothing is, or it is on, nothing begins.
@@ -237,8 +269,8 @@ class PublishedService:
                 for entry in entries:
                     self._keep(entry)
             except SimulationCancelledError:
-                if work.state == "running":
-                    raise
+                with self._lock:
+                    work.state = "cancelled"
                 return
             except StorageError:
                 raise

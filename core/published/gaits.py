@@ -23,7 +23,7 @@ def published_gait(table: PublishedTable, row: PublishedRow) -> Gait:
         row: the row.
     """
     gait = _manual(row.gait) if row.gait.version is not None else _optimised(row.gait)
-    return replace(gait, name=_name(table, row), notes=f"The gait of {table.source}.")
+    return replace(gait, name=f"{row_title(row)} ({table.name})", notes=f"The gait of {table.source}.")
 
 
 def _optimised(of: RowGait) -> Gait:
@@ -49,7 +49,8 @@ def feet_of_roles(gait: Gait, roles: tuple[str, ...]) -> tuple[int, ...]:
     return tuple(names.index("".join(word[0] for word in role.split())) + 1 for role in roles)
 
 
-def _name(table: PublishedTable, row: PublishedRow) -> str:
+def row_title(row: PublishedRow) -> str:
+    """The gait of a row for a person, such as `Walk 10 mm` or `Walk version 0 × 3`."""
     gait = row.gait
     parts = [family_title(gait)]
     if gait.version is not None:
@@ -60,4 +61,4 @@ def _name(table: PublishedTable, row: PublishedRow) -> str:
         parts.append("-".join(map(str, feet_of_roles(library()[gait.family].gait, gait.order))))
     if gait.iterations > 1:
         parts.append(f"× {gait.iterations}")
-    return f"{' '.join(parts)} ({table.name})"
+    return " ".join(parts)

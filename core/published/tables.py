@@ -61,6 +61,11 @@ class RowGait:
     iterations: int = 1
     is_one_motion: bool = False
 
+    @property
+    def motion_iterations(self) -> int:
+        """Iterations that the published trajectory holds."""
+        return self.iterations if self.is_one_motion else 1
+
 
 @dataclass(frozen=True)
 class PublishedRow:
@@ -177,4 +182,4 @@ def _row_id(values: dict[str, Any], gait: RowGait) -> str:
     if gait.version is not None:
         return f"{gait.family}-{gait.version}"
     size = f"{gait.family}-{gait.step * 1000:.0f}"
-    return size if "movement" not in values else f"{size}-{values['movement'].split()[-1]}".lower()
+    return size if "movement" not in values else f"{size}-{Movement(values['movement']).name.lower()}"

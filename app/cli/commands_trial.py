@@ -24,7 +24,7 @@ from core.trials.movement import Movement, foot_movements, mean_movement, spread
 from core.vision.track import FootTrack
 from core.vision.track_csv import FRAME_RATE, PixelScale, read_track_csv
 
-_COLUMNS = ("+x", "−x", "dx", "+y", "−y", "dy", "dist", "angle", "% err", "net", "net angle")
+_COLUMNS = ("+x", "−x", "dx", "+y", "−y", "dy", "dist", "angle", "% err", "net", "net angle", "extent")
 
 
 @dataclass(frozen=True)

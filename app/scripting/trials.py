@@ -10,7 +10,16 @@ from app.cli.commands_trial import read_trials, trials_content
 from app.scripting.html import Cell, table
 from app.scripting.options import command_options
 
-_COLUMNS = ("dx", "dy", "distance", "angle_deg", "error_percent", "net_distance", "net_angle_deg")
+_COLUMNS = (
+    "dx",
+    "dy",
+    "distance",
+    "angle_deg",
+    "error_percent",
+    "net_distance",
+    "net_angle_deg",
+    "extent_distance",
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -34,7 +43,7 @@ class Trial:
 
     @property
     def mean(self) -> dict[str, float]:
-        """The mean over feet and files: dx, dy, distance and net_distance in cm, angles in degrees."""
+        """The mean over feet and files: dx, dy and distances in cm, angles in degrees."""
         values: dict[str, float] = self.figures["mean"]
         return values
 

@@ -31,6 +31,7 @@ def movement_content(movement: Movement) -> dict[str, float]:
         "net_distance": movement.net_distance * CM,
         "net_angle_deg": math.degrees(movement.net_angle),
         "net_error_percent": movement.net_error * 100.0,
+        "extent_distance": movement.extent_distance * CM,
     }
 
 

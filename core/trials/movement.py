@@ -15,8 +15,9 @@ from core.vision.track import FootTrack
 class Movement:
     """One foot's movement, or a mean of several.
 
-    The published tables take the largest excursions from the first frame, though thesis 5.2 says first and
-    last values; both are here.
+    Three definitions of a distance are published, and all are here: thesis 5.2 says first and last values,
+    its tables of chapter 5 take the largest excursions from the first frame, and those of appendix A the
+    whole extents.
 
     Args:
         plus_x: largest excursion from the first value towards +x, m.
@@ -31,6 +32,7 @@ class Movement:
         net_distance: hypot(dx, dy), m.
         net_angle: atan2(dy, dx), signed, rad.
         net_error: net distance beside what was wanted, as a share of it.
+        extent_distance: hypot(largest x − smallest x, largest y − smallest y), m.
     """
 
     plus_x: float
@@ -45,6 +47,7 @@ class Movement:
     net_distance: float
     net_angle: float
     net_error: float
+    extent_distance: float
 
 
 def foot_movements(track: FootTrack, expected: float) -> tuple[Movement, ...]:
@@ -81,6 +84,7 @@ def _movement(path: Floats, expected: float) -> Movement:
         net_distance=net_distance,
         net_angle=math.atan2(dy, dx),
         net_error=net_distance / expected - 1.0,
+        extent_distance=math.hypot(*np.ptp(path, axis=0)),
     )
 
 

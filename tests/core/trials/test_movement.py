@@ -6,6 +6,7 @@ import csv
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
@@ -64,6 +65,63 @@ def test_going_back_shows_in_the_net_figures_only() -> None:
     movement = foot_movements(track, 0.02)[0]
     assert movement.distance == pytest.approx(0.02)
     assert movement.net_distance == pytest.approx(0.0)
+
+
+MADE_TRACKS = {
+    "straight": ([(0, 0), (3, 0)], 3.0),
+    "backwards": ([(0, 0), (-3, -4)], 5.0),
+    "there and back": ([(0, 0), (-3, 0), (0, -4), (0, 0)], 5.0),
+    "a loop around its beginning": ([(0, 0), (5, 1), (1, 12), (0, -3), (-3, 0), (0, 0)], 17.0),
+    "far from the origin": ([(1001, -7), (1004, -11)], 5.0),
+    "at rest": ([(2, 2), (2, 2)], 0.0),
+}
+"""Places of a foot, and the extent distance of them, cm."""
+
+
+@pytest.mark.parametrize(("places", "extent"), MADE_TRACKS.values(), ids=MADE_TRACKS)
+def test_the_extent_distance_spans_the_least_box_around_a_track(
+    places: list[tuple[float, float]], extent: float
+) -> None:
+    feet = np.repeat(np.array(places)[:, None] / 100, 4, axis=1)
+    feet[:, 1] = 0.0
+    track = FootTrack(np.arange(len(feet)) / 13.0, feet, np.zeros(feet.shape[:2], dtype=np.bool_))
+    movements = foot_movements(track, 0.03)
+    expected = [extent, 0.0, extent, extent]
+    assert [foot.extent_distance * 100 for foot in movements] == pytest.approx(expected, abs=1e-9)
+    assert mean_movement(movements).extent_distance * 100 == pytest.approx(extent * 0.75, abs=1e-9)
+
+
+def test_gaps_leave_the_extent_distance_of_what_was_seen() -> None:
+    text = "X_D1,Y_D1\n1,1\n,\n4,5\n,\n,\n2,-7\n"
+    movement = foot_movements(parse_track_csv(text, "made.csv"), 0.03)[0]
+    assert movement.extent_distance * 100 == pytest.approx(math.hypot(3, 12), abs=1e-9)
+
+
+@given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), min_size=2, max_size=9), st.randoms())
+def test_the_extent_distance_needs_no_first_or_last_frame(
+    places: list[tuple[float, float]], random: Random
+) -> None:
+    def movement(feet: list[tuple[float, float]]) -> Movement:
+        track = FootTrack(
+            np.arange(len(feet)) / 13.0, np.array(feet)[:, None], np.zeros((len(feet), 1), dtype=np.bool_)
+        )
+        return foot_movements(track, 0.03)[0]
+
+    one, other = movement(places), movement(random.sample(places, len(places)))
+    assert one.extent_distance == other.extent_distance
+    assert one.extent_distance >= max(one.distance, one.net_distance) - 1e-12
+
+
+def test_published_tracks_have_the_extents_of_their_columns() -> None:
+    files = sorted((reference_path("robot_trials") / "tracks_cm").glob("*.csv"))
+    assert len(files) == 32
+    for file in files:
+        columns = np.loadtxt(file, delimiter=",", skiprows=1)
+        extents = columns.max(axis=0) - columns.min(axis=0)
+        expected = np.hypot(extents[0::2], extents[1::2])
+        ours = rows_of(file)
+        assert [foot.extent_distance * 100 for foot in ours[:-1]] == pytest.approx(expected, abs=1e-9)
+        assert ours[-1].extent_distance * 100 == pytest.approx(expected.mean(), abs=1e-9)
 
 
 @given(

@@ -46,22 +46,43 @@ class Column:
         label: the figure and its origin, for a person.
         unit: of the numbers; empty for texts.
         who: the figure's origin; empty for what describes the row.
+        quantity: the figure alone, for a person; empty for what describes the row.
+        origin: the origin alone, for a person; empty for what describes the row.
+        decimals: of a number, for a person.
+        better: `less` where a figure nearer to zero is better, `more` where a larger one is; else empty.
     """
 
     key: str
     label: str
     unit: str = ""
     who: str = ""
+    quantity: str = ""
+    origin: str = ""
+    decimals: int = 1
+    better: str = ""
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure of a kind of table, and the origins that have it."""
+    """A figure of a kind of table, and the origins that have it.
+
+    Args:
+        name: in the keys of columns.
+        label: for a person.
+        unit: of the numbers.
+        who: the origins that have it.
+        decimals: of computed numbers, for a person.
+        printed: decimals of the printed numbers.
+        better: as in `Column`; empty too where a computed figure stands beside a measured one.
+    """
 
     name: str
     label: str
     unit: str
     who: tuple[Who, ...]
+    decimals: int = 1
+    printed: int = 1
+    better: str = ""
 
 
 _ALL = (Who.PUBLISHED, Who.OURS, Who.RUN, Who.RECORDED)
@@ -69,28 +90,29 @@ _OWN = (Who.OURS, Who.RUN, Who.RECORDED)
 _WALKED = (Who.PUBLISHED, Who.OURS, Who.TRACK, Who.RECORDED)
 _MARGIN = Figure("margin_mm", "margin asked", "mm", (Who.OURS,))
 _MOVED = (
-    Figure("distance_cm", "distance", "cm", _WALKED),
+    Figure("desired_cm", "wanted distance", "cm", (Who.PUBLISHED,)),
+    Figure("distance_cm", "distance", "cm", _WALKED, decimals=2),
     Figure("angle_deg", "angle", "°", _WALKED),
     Figure("error_percent", "error", "%", _WALKED),
 )
 FIGURES: dict[Kind, tuple[Figure, ...]] = {
     Kind.STANDING: (
-        Figure("feet_mm", "error by the table", "mm", (Who.PUBLISHED, Who.OURS, Who.RUN)),
-        Figure("way_mm", "feet from the plan", "mm", (Who.OURS,)),
+        Figure("feet_mm", "error by the table", "mm", (Who.PUBLISHED, Who.OURS, Who.RUN), 2, better="less"),
+        Figure("way_mm", "feet from the plan", "mm", (Who.OURS,), 2),
         Figure("goes_mm", "goes", "mm", (Who.OURS, Who.RUN)),
         Figure("planned_mm", "is planned to go", "mm", (Who.OURS,)),
         Figure("lean_deg", "largest lean", "°", (Who.OURS, Who.RUN)),
     ),
     Kind.TRACKING: (
-        Figure("feet_mm", "feet", "mm", _ALL),
-        Figure("body_mm", "body", "mm", _OWN),
+        Figure("feet_mm", "feet", "mm", _ALL, 2, better="less"),
+        Figure("body_mm", "body", "mm", _OWN, 2),
         Figure("lean_deg", "largest lean", "°", _OWN),
         Figure("goes_mm", "goes", "mm", _OWN),
         _MARGIN,
     ),
     Kind.PAPER: (
         *(
-            Figure(name, label, "mm", (Who.PUBLISHED, Who.OURS))
+            Figure(name, label, "mm", (Who.PUBLISHED, Who.OURS), 2, better="less")
             for name, label in (("body_mm", "body"), *((f"foot{n}_mm", f"foot {n}") for n in range(1, 5)))
         ),
         Figure("lean_deg", "largest lean", "°", (Who.OURS,)),
@@ -100,8 +122,8 @@ FIGURES: dict[Kind, tuple[Figure, ...]] = {
     Kind.EXTENTS: (*_MOVED, _MARGIN),
     Kind.PACE: (
         Figure("seconds", "time of a step", "s", (Who.PUBLISHED, Who.OURS, Who.RECORDED)),
-        Figure("speed_mm_s", "speed", "mm/s", (Who.PUBLISHED, Who.OURS, Who.RECORDED)),
-        Figure("gait_speed_mm_s", "mean speed of the gait", "mm/s", (Who.PUBLISHED,)),
+        Figure("speed_mm_s", "speed", "mm/s", (Who.PUBLISHED, Who.OURS, Who.RECORDED), 2),
+        Figure("gait_speed_mm_s", "mean speed of the gait", "mm/s", (Who.PUBLISHED,), printed=3),
         _MARGIN,
     ),
 }
@@ -129,7 +151,20 @@ def _figure_columns(table: PublishedTable, has_reference: bool) -> Iterator[Colu
                 continue
             if figure is _MARGIN and manual:
                 continue
-            yield Column(f"{who}.{figure.name}", f"{figure.label}, {_title(table, who)}", figure.unit, who)
+            yield _figure_column(figure, who, _title(table, who))
+
+
+def _figure_column(figure: Figure, who: Who, origin: str) -> Column:
+    return Column(
+        key=f"{who}.{figure.name}",
+        label=f"{figure.label}, {origin}",
+        unit=figure.unit,
+        who=who,
+        quantity=figure.label,
+        origin=origin,
+        decimals=figure.printed if who is Who.PUBLISHED else figure.decimals,
+        better=figure.better,
+    )
 
 
 def has_data(table: PublishedTable, who: Who) -> bool:
@@ -164,8 +199,6 @@ def _row_columns(table: PublishedTable) -> Iterator[Column]:
         yield Column("iterations", "Iterations")
     if len({row.movement for row in rows}) > 1:
         yield Column("movement", "Movement")
-    if "desired_cm" in rows[0].printed:
-        yield Column("desired_cm", "Wanted", "cm")
 
 
 def row_cells(row: PublishedRow) -> Json:
@@ -180,6 +213,5 @@ def row_cells(row: PublishedRow) -> Json:
         "step_mm": round(gait.step * 1000, 1),
         "iterations": gait.iterations,
         "movement": row.movement.value,
-        "desired_cm": row.printed.get("desired_cm"),
     }
     return cells | {f"{Who.PUBLISHED}.{name}": value for name, value in row.printed.items()}

@@ -11,14 +11,22 @@ import { tableCell } from "../lib/table_cell.js";
  *   opens: string[], has_plot: boolean}} Row
  */
 
-/** The columns that describe a row; the others have figures. @param {Column[]} columns */
-const describing = (columns) => columns.filter(({ who }) => !who);
+/**
+ * The columns that tell the rows apart, and those that describe all rows alike; the others have figures.
+ * @param {Column[]} columns
+ * @param {Row[]} rows
+ */
+export function describing(columns, rows) {
+  const all = columns.filter(({ who }) => !who);
+  const isShared = ({ key }) => rows.every(({ cells }) => cells[key] === rows[0].cells[key]);
+  const apart = all.filter((column) => !isShared(column));
+  const names = apart.length ? apart : all.slice(0, 1);
+  return { names, shared: all.filter((column) => !names.includes(column)) };
+}
 
-/** The head of the rows' names: "Gait, step". @param {Column[]} columns */
-export const nameHead = (columns) =>
-  describing(columns)
-    .map(({ label }, place) => (place ? lowered(label) : label))
-    .join(", ");
+/** The head of the rows' names: "Gait, step". @param {Column[]} names */
+export const nameHead = (names) =>
+  names.map(({ label }, place) => (place ? lowered(label) : label)).join(", ");
 
 /** @type {(row: Row, column: Column) => string} */
 function describingWord({ cells }, { key, label, unit }) {
@@ -28,12 +36,12 @@ function describingWord({ cells }, { key, label, unit }) {
 }
 
 /**
- * The name of a row: "Walk, 10 mm", "Amble, version 2".
+ * A description by some columns: "Walk, 10 mm", "Amble, version 2".
  * @param {Row} row
  * @param {Column[]} columns
  */
-export const rowName = (row, columns) =>
-  describing(columns)
+export const description = (row, columns) =>
+  columns
     .map((column) => describingWord(row, column))
     .filter(Boolean)
     .join(", ");

@@ -3,7 +3,7 @@
 import { publishedApi } from "../api/published.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { announce, attempt, report, toast } from "../lib/toasts.js";
-import { copiedText, csvText, tableLines } from "./figures.js";
+import { copiedText, csvText, describing, description, tableLines } from "./figures.js";
 import { progressText } from "./table_list.js";
 import { figuresTable } from "./table_view.js";
 
@@ -82,6 +82,15 @@ function filesPart(content) {
  */
 
 /**
+ * Where the table is printed, and what all its rows share: "T Table A.1, page 85 · Walk, iterations 3".
+ * @param {Content} content
+ */
+function sourceText({ source, columns, rows }) {
+  const { shared } = describing(columns, rows);
+  return [source, description(rows[0], shared)].filter(Boolean).join(" · ");
+}
+
+/**
  * Builds the page of a table.
  * @param {Content} first
  * @param {{back: () => void, toggle: (row: string) => void, changed: () => void,
@@ -112,7 +121,7 @@ export function tablePage(first, acts) {
         "div",
         {},
         h("h3", { text: `${first.name}  ${first.title}` }),
-        h("p", { class: "quiet", text: first.source }),
+        h("p", { class: "quiet", text: sourceText(first) }),
       ),
       compute.element,
     ),

@@ -3,7 +3,7 @@
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { capital } from "../lib/format.js";
 import { oneTabStop } from "../lib/tab_stop.js";
-import { cellText, columnGroups, comparison, nameHead, rowName } from "./figures.js";
+import { cellText, columnGroups, comparison, describing, description, nameHead } from "./figures.js";
 import { rowDetail } from "./row_detail.js";
 
 const SIGNS = { better: "▲", worse: "▼" };
@@ -17,7 +17,7 @@ const STATES = { running: "computing…", failed: "failed" };
 const headText = (text, unit) => [text, unit && h("span", { class: "unit", text: `, ${unit}` })];
 
 /** Heads in two lines: the quantities, and the origins of their figures. */
-function heads(columns) {
+function heads(columns, names) {
   const groups = columnGroups(columns);
   const upper = groups.map(({ quantity, unit, columns: members }) =>
     h(
@@ -35,8 +35,8 @@ function heads(columns) {
       ),
     ),
   );
-  const names = h("th", { scope: "col", rowspan: 2, text: nameHead(columns) });
-  return h("thead", {}, h("tr", {}, names, ...upper), h("tr", {}, ...lower));
+  const name = h("th", { scope: "col", rowspan: 2, text: capital(nameHead(names)) });
+  return h("thead", {}, h("tr", {}, name, ...upper), h("tr", {}, ...lower));
 }
 
 function figureCell(row, column, columns) {
@@ -54,7 +54,8 @@ function figureCell(row, column, columns) {
 }
 
 /** A row and the line below it with its acts. */
-function tableRow({ table, toggle, open }, { id }) {
+function tableRow({ table, columns, names, toggle, open }, { id }) {
+  const figures = columns.filter(({ who }) => who);
   const [name, state] = [h("span"), h("small", { class: "quiet" })];
   const remark = h("small", { class: "quiet remark" });
   const button = h("button", { class: "plain", "aria-expanded": "false" }, name);
@@ -72,9 +73,9 @@ function tableRow({ table, toggle, open }, { id }) {
     elements: [element, line],
     button,
     /** @param {import("./figures.js").Row} row */
-    show(row, columns, isOpen) {
-      const figures = columns.filter(({ who }) => who);
-      setText(name, rowName(row, columns));
+    show(row, isOpen) {
+      const words = description(row, names);
+      setText(name, words);
       setText(state, STATES[row.state] ?? "");
       setText(remark, row.sentence);
       setAttribute(element, "data-state", row.state);
@@ -86,25 +87,26 @@ function tableRow({ table, toggle, open }, { id }) {
       if (now === shown) return;
       shown = now;
       below.colSpan = figures.length + 1;
-      below.replaceChildren(...(isOpen ? [rowDetail(table, row, rowName(row, columns), open)] : []));
+      below.replaceChildren(...(isOpen ? [rowDetail(table, row, words, open)] : []));
     },
   };
 }
 
 /**
  * Builds the table of figures.
- * @param {Record<string, any>} content `id`, `name`, `title`, `columns`
+ * @param {Record<string, any>} content `id`, `name`, `title`, `columns`, `rows`
  * @param {{toggle: (row: string) => void,
  *   open: (row: string, source: string, step: string) => Promise<void>}} acts
  * @returns {{element: HTMLElement, show: (rows: import("./figures.js").Row[], opened: string|null) => void}}
  */
-export function figuresTable({ id, name, title, columns }, acts) {
+export function figuresTable({ id, name, title, columns, rows: first }, acts) {
+  const { names } = describing(columns, first);
   const body = h("tbody");
   const rows = new Map();
   const element = h(
     "div",
     { class: "published-box", role: "region", "aria-label": `${name}, ${title}`, tabindex: "0" },
-    h("table", { class: "published-figures" }, heads(columns), body),
+    h("table", { class: "published-figures" }, heads(columns, names), body),
   );
   oneTabStop(body, { items: "th > button" });
   return {
@@ -112,10 +114,10 @@ export function figuresTable({ id, name, title, columns }, acts) {
     show(wanted, opened) {
       for (const row of wanted) {
         if (!rows.has(row.id)) {
-          rows.set(row.id, tableRow({ table: id, ...acts }, row));
+          rows.set(row.id, tableRow({ table: id, columns, names, ...acts }, row));
           body.append(...rows.get(row.id).elements);
         }
-        rows.get(row.id).show(row, columns, row.id === opened);
+        rows.get(row.id).show(row, row.id === opened);
       }
     },
   };

@@ -9,8 +9,9 @@ import {
   comparison,
   copiedText,
   csvText,
+  describing,
+  description,
   nameHead,
-  rowName,
   tableLines,
 } from "../../../app/static/published/figures.js";
 
@@ -44,11 +45,19 @@ const row = (published, ours) => ({
 });
 const OURS = COLUMNS[3];
 
-test("a row is named by the columns that describe it, a number without a unit with its label", () => {
-  assert.equal(nameHead(COLUMNS), "Gait, step");
-  assert.equal(rowName(row(1, 2), COLUMNS), "Walk, 10 mm");
-  const byHand = [COLUMNS[0], column("version", { label: "Version" })];
-  assert.equal(rowName({ ...row(1, 2), cells: { gait: "Amble", version: 0 } }, byHand), "Amble, version 0");
+test("a row is named by what tells the rows apart; what all rows share stands elsewhere", () => {
+  const columns = [COLUMNS[0], column("version", { label: "Version" }), COLUMNS[1], OURS];
+  const rows = [0, 1].map((version) => ({ ...row(1, 2), cells: { gait: "Amble", version, step_mm: 10 } }));
+  const { names, shared } = describing(columns, rows);
+  assert.equal(nameHead(names), "Version");
+  assert.equal(description(rows[0], names), "version 0");
+  assert.equal(description(rows[0], shared), "Amble, 10 mm");
+});
+
+test("a table of one row names it by its first column", () => {
+  const { names, shared } = describing(COLUMNS, [row(1, 2)]);
+  assert.equal(nameHead([...names, ...shared]), "Gait, step");
+  assert.equal(description(row(1, 2), names), "Walk");
 });
 
 test("columns of a quantity that stand side by side have one head, with the unit that they share", () => {

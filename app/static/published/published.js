@@ -45,7 +45,7 @@ function drawerParts(list, reference) {
     list.element,
     reference.element,
   );
-  const body = h("div", { class: "published", data: { keys: "", arrows: "" } }, tables, place);
+  const body = h("div", { class: "published", data: { arrows: "" } }, tables, place);
   byId("drawer-published").append(h("header", {}, h("h2", { text: "Published experiments" }), close), body);
   return { body, place };
 }

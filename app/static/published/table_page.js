@@ -2,11 +2,14 @@
 
 import { publishedApi } from "../api/published.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { remember, remembered } from "../lib/remembered.js";
 import { announce, attempt, report, toast } from "../lib/toasts.js";
 import { copiedText, csvText, describing, description, tableLines } from "./figures.js";
 import { progressText } from "./table_list.js";
 import { figuresTable } from "./table_view.js";
 
+const FOLD = "published-about";
+const LOW = "(max-height: 800px)";
 const COMPUTE_HELP = "Computes the missing figures of ours, one row after the other";
 
 /**
@@ -49,6 +52,22 @@ function computePart(id, changed) {
       compute.hidden = isRunning || isWhole;
       setText(compute, done ? "Compute the rest" : "Compute ours");
       setAllowed(compute, null, COMPUTE_HELP);
+    },
+  };
+}
+
+/** The sentences about what is compared; folded in a low window until somebody unfolds them. */
+function aboutPart() {
+  const sentences = h("div");
+  const open = remembered(FOLD).open ?? !matchMedia(LOW).matches;
+  const summary = h("summary", { text: "What is compared" });
+  const element = h("details", { class: "published-about", open }, summary, sentences);
+  summary.addEventListener("click", () => remember(FOLD, { open: !element.open }));
+  return {
+    element,
+    show(texts) {
+      if (sentences.textContent !== texts.join(""))
+        sentences.replaceChildren(...texts.map((text) => h("p", { text })));
     },
   };
 }
@@ -103,7 +122,7 @@ export function tablePage(first, acts) {
   const shape = ({ id, columns, rows }) => JSON.stringify([id, columns, rows.map((row) => row.id)]);
   let content = first;
   const compute = computePart(first.id, acts.changed);
-  const about = h("div", { class: "published-about" });
+  const about = aboutPart();
   const trouble = h("p", { class: "box-note", data: { tone: "bad" } });
   const table = figuresTable(first, acts);
   const signs = h("p", {
@@ -125,7 +144,7 @@ export function tablePage(first, acts) {
       ),
       compute.element,
     ),
-    about,
+    about.element,
     trouble,
     table.element,
     h(
@@ -141,8 +160,7 @@ export function tablePage(first, acts) {
     show(next, opened) {
       content = next;
       compute.show(next);
-      if (about.childElementCount !== next.about.length || about.textContent !== next.about.join(""))
-        about.replaceChildren(...next.about.map((text) => h("p", { text })));
+      about.show(next.about);
       trouble.hidden = !next.sentence;
       setText(trouble, next.sentence);
       signs.hidden = !next.columns.some(({ better }) => better);

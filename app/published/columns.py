@@ -129,7 +129,8 @@ def _figure_columns(table: PublishedTable, has_reference: bool) -> Iterator[Colu
                 continue
             if figure is _MARGIN and manual:
                 continue
-            yield Column(f"{who}.{figure.name}", f"{figure.label}, {_title(table, who)}", figure.unit, who)
+            label = f"{figure.label}, {_title(table, who)}"
+            yield Column(f"{who}.{figure.name}", label, figure.unit, who.value)
 
 
 def has_data(table: PublishedTable, who: Who) -> bool:

@@ -7,7 +7,16 @@ from typing import Any
 from app.bench import BENCHMARKS, BY_NAME_ONLY, measured
 from app.bench.common.measure import EndedEarly, Row, conditions
 from app.bench.solvers.fastest_grid import bench_fastest_grid
-from app.cli.bench_options import GRID, MOVES, PHYSICS, add_bench_options, grid_of, reports_of
+from app.cli.bench_options import (
+    GRID,
+    MOVES,
+    PHYSICS,
+    PUBLISHED,
+    add_bench_options,
+    grid_of,
+    reports_of,
+    tables_of,
+)
 from app.cli.common.command import set_command
 from app.cli.common.output import INTERRUPTED, end_on_signals, note, show
 from app.cli.common.progress import clear_line
@@ -37,6 +46,7 @@ def run_bench(options: Namespace) -> int:
         PHYSICS: (options.reference, reports.get(PHYSICS)),
         MOVES: (reports.get(MOVES),),
         "learning": (options.reference,),
+        PUBLISHED: (options.reference, tables_of(options)),
     }
     grid = grid_of(options)
     if grid is not None:

@@ -55,6 +55,8 @@ def serve_command(parser: ArgumentParser) -> None:
     add("--token", nargs="?", const="", default=None, help=text)
     text = "play a video file as a camera of that name; may be given several times"
     add("--camera", action="append", default=[], metavar="NAME=VIDEO", help=text)
+    text = "folder of the published data, for the published experiments; it is remembered"
+    add("--reference", type=Path, default=None, metavar="FOLDER", help=text)
     add("--no-browser", action="store_true", help="do not open a browser")
 
 
@@ -81,6 +83,7 @@ def run_serve(options: Namespace) -> int:
             token=token,
             opens_browser=not options.no_browser,
             cameras=cameras,
+            reference=options.reference,
         ),
         _announce,
     )

@@ -159,7 +159,7 @@ def _figure_column(figure: Figure, who: Who, origin: str) -> Column:
         key=f"{who}.{figure.name}",
         label=f"{figure.label}, {origin}",
         unit=figure.unit,
-        who=who,
+        who=who.value,
         quantity=figure.label,
         origin=origin,
         decimals=figure.printed if who is Who.PUBLISHED else figure.decimals,

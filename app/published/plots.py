@@ -64,7 +64,7 @@ def _title(row: PublishedRow) -> str:
 def _caption(figures: Json) -> str:
     body = figures.get("body_mm")
     gaps = f"feet {figures['feet_mm']:.2f} mm" + ("" if body is None else f", body {body:.2f} mm")
-    return f"{gaps} by the table; leans {figures['lean_deg']:.1f}° at most"
+    return f"{gaps}; leans {figures['lean_deg']:.1f}°"
 
 
 def _side_by_side(panels: Sequence[Drawing], captions: Sequence[str], title: str) -> Drawing:

@@ -30,11 +30,11 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
     data = tmp_path_factory.mktemp("data")
     database = Database(data / "studio.sqlite3")
     store, table = PublishedStore(database), published_table("t4-1")
-    figures = {Who.OURS: {Kind.STANDING.value: {"feet_mm": 2.25, "lean_deg": 0.3}}}
+    definitions: dict[str, dict[str, float | None]] = {Kind.STANDING.value: {"feet_mm": 2.25}}
     for row in table.rows:
         if row.id != MISSING:
             (own,) = entries_of(table, row, None)
-            store.put(own.key, 0.0, figures_content(figures, FELL if row.id == FALLS else ""))
+            store.put(own.key, 0.0, figures_content({Who.OURS: definitions}, FELL if row.id == FALLS else ""))
     database.close()
     with running_studio(data) as running:
         yield running

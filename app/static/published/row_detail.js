@@ -24,7 +24,7 @@ const ACTS = [
 
 const LACKS = {
   ours: "This row has no gait of ours that can be opened.",
-  published: "Name the folder with the published data to open the published motion.",
+  published: "No folder with the published data is named, or the folder has no motion of this row.",
 };
 
 /** The plot, as soon as the studio has drawn it; the reason where it cannot. */

@@ -71,7 +71,6 @@ export function rowDetail(table, row, name, open) {
     "div",
     { class: "published-detail", role: "group", "aria-label": name },
     h("div", { class: "buttons" }, ...buttons),
-    row.sentence && h("p", { class: "quiet", text: row.sentence }),
     row.has_plot && plotPart(table, row, name),
   );
 }

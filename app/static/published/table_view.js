@@ -78,7 +78,6 @@ function tableRow({ table, columns, names, toggle, open }, { id }) {
       setText(name, words);
       setText(state, STATES[row.state] ?? "");
       setText(remark, row.sentence);
-      setAttribute(remark, "title", row.sentence || null);
       setAttribute(element, "data-state", row.state);
       setAttribute(button, "aria-expanded", String(isOpen));
       while (head.nextSibling) head.nextSibling.remove();

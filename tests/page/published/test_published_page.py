@@ -14,6 +14,7 @@ from app.published.figures import figures_content
 from app.store.database import Database
 from app.store.tables.published_store import PublishedStore
 from core.published.tables import Kind, published_table
+from tests.support.page.axe import require_no_finding
 from tests.support.page.drawers import open_drawer
 from tests.support.page.opened import look, opened_page
 from tests.support.studio_process import StudioProcess, running_studio
@@ -70,6 +71,7 @@ def test_a_table_is_computed_and_a_row_of_it_is_simulated(browser: Browser, stud
         page.keyboard.press("Enter")
         expect(page.get_by_alt_text("Paths of the feet of Walk, version 0")).to_be_visible()
         look(page, "published")
+        require_no_finding(page, "published table")
         page.reload()
         row = page.get_by_role("group", name="Walk, version 0")
         expect(row.get_by_role("button", name="Published motion")).to_have_attribute("aria-disabled", "true")

@@ -24,6 +24,7 @@ from app.emulator.profiles import ProfileName
 from app.export.trajectory_files import finds_companion, read_waypoints
 from app.export.way_files import checked_way, read_way_file
 from app.gaits.verdict_views import approval_view, override_view, override_words, verdict_view
+from app.published.reference import Reference
 from app.store.gait_files import default_data_folder
 from core.checks.rules import check_plan, check_waypoints
 from core.errors import CheckError, InputError, RobotError
@@ -71,6 +72,9 @@ def run_serve(options: Namespace) -> int:
             "--token",
         )
     _require_device(options.robot)
+    reference = None if options.reference is None else options.reference.expanduser().absolute()
+    if reference is not None:
+        Reference(reference)
     # The web server and the 3D scene take a second to load; the other commands do without them.
     from app.server.launch import ServeOptions, serve
 
@@ -83,7 +87,7 @@ def run_serve(options: Namespace) -> int:
             token=token,
             opens_browser=not options.no_browser,
             cameras=cameras,
-            reference=options.reference,
+            reference=reference,
         ),
         _announce,
     )

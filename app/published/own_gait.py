@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from app.plans.make_plan import Solve, make_plan
 from app.plans.plan import Plan
-from core.errors import CheckError
+from core.errors import CheckError, StateError
 from core.gait.gait import Gait
 from core.robot.model import load_robot
 
@@ -41,6 +41,7 @@ def own_gait(gait: Gait, solve: Solve) -> OwnGait:
 
     Raises:
         CheckError: none of the margins has a motion, or no foot reaches its places.
+        StateError: the solver gave no answer.
     """
     if gait.segment_table is not None:
         return OwnGait(gait, _sendable(make_plan(gait, None, solve)), "")
@@ -48,6 +49,8 @@ def own_gait(gait: Gait, solve: Solve) -> OwnGait:
     for margin in (own, *(one for one in SMALLER_MARGINS if one < own)):
         asked = gait.with_options(margin=margin)
         plan = make_plan(asked, None, solve)
+        if plan.broke_off:
+            raise StateError(f"The solver gave no answer. {_why_not(plan)}", "plan")
         if not plan.is_draft and plan.way is not None:
             words = "" if margin == own else _margin_words(own, margin)
             return OwnGait(asked, plan, words)

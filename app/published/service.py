@@ -74,6 +74,8 @@ class PublishedService:
         self._publish = publish
         self._lock = threading.Lock()
         self._works: dict[str, _Work] = {}
+        self._contents: Kept = {}
+        self._is_read = False
         self._handle: SimulationHandle | None = None
         self._is_closed = False
         self._thread: threading.Thread | None = None
@@ -106,7 +108,7 @@ class PublishedService:
 
     def overview(self) -> Json:
         """Every table without its rows, and the folder of the published data."""
-        kept, reference = self._store.all(), self.reference
+        kept, reference = self._kept(), self.reference
         tables = published_tables().values()
         lines = [self._line(table, table_entries(table, reference), kept) for table in tables]
         return {"reference": self._folder.content(), "tables": lines}
@@ -118,7 +120,7 @@ class PublishedService:
             NotFoundError: there is none of this id.
         """
         table = published_table(table_id)
-        return self._line(table, table_entries(table, self.reference), self._store.all())
+        return self._line(table, table_entries(table, self.reference), self._kept())
 
     def view(self, table_id: str) -> Json:
         """A table with sentences about it, columns and rows.
@@ -126,7 +128,7 @@ class PublishedService:
         Raises:
             NotFoundError: there is none of this id.
         """
-        table, reference, kept = published_table(table_id), self.reference, self._store.all()
+        table, reference, kept = published_table(table_id), self.reference, self._kept()
         entries = table_entries(table, reference)
         view = table_view(table, reference, entries, kept)
         rows = [row | self._row_state(table_id, row) for row in view["rows"]]
@@ -140,7 +142,7 @@ class PublishedService:
         """
         table = published_table(table_id)
         row = table.row(row_id)
-        kept = self._store.all()
+        kept = self._kept()
         entries = entries_of(table, row, self.reference)
         contents = [kept[entry.key] for entry in entries if entry.key in kept]
         drawing = row_plot(table, row, contents, walker().colours)
@@ -169,7 +171,7 @@ class PublishedService:
         """
         table = published_table(table_id)
         entries = table_entries(table, self.reference)
-        kept = self._store.all()
+        kept = self._kept()
         with self._lock:
             work = self._works.get(table_id)
             is_on = work is not None and work.state == "running"
@@ -278,9 +280,19 @@ class PublishedService:
                 with self._lock:
                     work.failures[row] = error.sentence
 
+    def _kept(self) -> Kept:
+        """What is computed by now; read from the store once."""
+        with self._lock:
+            if not self._is_read:
+                self._contents, self._is_read = self._store.all(), True
+            return self._contents
+
     def _keep(self, entry: Entry) -> None:
-        if entry.key not in self._store.all():
-            self._store.put(entry.key, time.time(), entry.compute(self._tools))
+        if entry.key not in self._kept():
+            content = entry.compute(self._tools)
+            self._store.put(entry.key, time.time(), content)
+            with self._lock:
+                self._contents = {**self._contents, entry.key: content}
 
     def _simulated(self, problem: SimulationProblem) -> SimulatedMotion:
         """Simulates in the physics' own process; ended by a cancel.

@@ -83,7 +83,7 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
         studio = Studio(options.data, options.device, options.cameras)
         try:
             if options.reference is not None:
-                studio.published.name_folder(str(options.reference.expanduser().absolute()))
+                studio.published.name_folder(str(options.reference))
             app = make_app(studio, scenes, Access(options.host, token))
             config = uvicorn.Config(
                 app,

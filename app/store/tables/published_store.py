@@ -9,6 +9,9 @@ from app.store.tables.contents import PUBLISHED
 from app.store.tables.shapes import Stored, text
 from app.store.tables.table import Table, TableKind
 
+MOST_KEPT = 400
+"""Figures that are kept, about 30 kB each at most; the oldest go. All tables have some 130 of a version."""
+
 
 @dataclass(frozen=True)
 class FiguresRow:
@@ -55,4 +58,9 @@ class PublishedStore:
             connection.execute(
                 "INSERT OR REPLACE INTO published VALUES(?,?,?)",
                 (key, made, json.dumps(content, allow_nan=False)),
+            )
+            connection.execute(
+                "DELETE FROM published WHERE rowid NOT IN "
+                "(SELECT rowid FROM published ORDER BY rowid DESC LIMIT ?)",
+                (MOST_KEPT,),
             )

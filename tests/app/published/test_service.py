@@ -161,7 +161,7 @@ def test_a_walk_that_goes_as_planned_has_no_error_by_any_definition(
     (row,) = studio.finish("ta-3")["rows"]
     assert row["cells"]["ours.distance_cm"] == pytest.approx(3.0, abs=0.02)
     assert row["cells"]["ours.error_percent"] == pytest.approx(0.0, abs=0.5)
-    assert row["cells"]["ours.angle_deg"] == pytest.approx(0.0, abs=0.2)
+    assert row["cells"]["ours.angle_deg"] == pytest.approx(0.0, abs=0.5)
 
 
 def test_a_cancel_ends_the_simulation_and_keeps_what_is_done(

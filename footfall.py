@@ -91,6 +91,7 @@ _HOMES = {
     "segments": ("Segments", "segments"),
     "verdicts": ("Verdict", "check"),
     "physics": ("Simulation", "simulate"),
+    "published": ("Published", "published"),
     "sending": ("Run", "send"),
     "robots": ("Robot", "robot", "robots"),
     "trials": ("Trial", "trial"),

@@ -19,6 +19,7 @@ BENCHMARKS = {
     "remedies": "solvers.remedies:bench_remedies",
     "patterns": "patterns.search:bench_patterns",
     "physics": "physics.tables:bench_physics",
+    "published": "physics.published:bench_published",
     "learning": "physics.learning:bench_learning",
     "bridge": "robot.all:bench_bridge",
     "walk": "robot.walk:bench_walk",
@@ -36,8 +37,8 @@ BENCHMARKS = {
 }
 """The function of every benchmark by its name, as `module:function` of this folder."""
 
-BY_NAME_ONLY = frozenset({"page", "advice", "atlas", "gaits", "scene", "learning"})
-"""Those that need what is not installed with the program."""
+BY_NAME_ONLY = frozenset({"page", "advice", "atlas", "gaits", "scene", "learning", "published"})
+"""Those that need what is not installed with the program, and the published tables, which take minutes."""
 
 
 def measured(name: str, *arguments: Any) -> list[Row]:

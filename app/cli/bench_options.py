@@ -19,6 +19,8 @@ GRID = "fastest"
 """The benchmark that has a grid."""
 PHYSICS, MOVES = "physics", "moves"
 """The benchmarks that write a report."""
+PUBLISHED = "published"
+"""The benchmark that prints published tables."""
 _LIMITS = ("orders", "steps", "margins", "stop_bounds")
 """Options that limit the grid, as the parser's result names them."""
 
@@ -30,12 +32,14 @@ def add_bench_options(parser: argparse.ArgumentParser) -> None:
         "names",
         nargs="*",
         metavar="NAME",
-        help="none: all but page, advice, atlas, gaits, scene and learning",
+        help="none: all but page, advice, atlas, gaits, scene, learning and published",
     )
     add("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
     add("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
-    text = "folder of published data (physics, walk, moves, learning)"
+    text = "folder of published data (physics, published, walk, moves, learning)"
     add("--reference", type=Path, default=None, help=text)
+    text = "tables such as t4-2 (published; default all)"
+    add("--table", dest="tables", type=listed(str), default=None, metavar="TABLE,…", help=text)
     text = (
         "file to write: HTML page with plots (physics), or picture with its data beside it (moves, which has "
         "to be named)"
@@ -82,6 +86,21 @@ def grid_order(text: str) -> tuple[int, ...]:
     if sorted(order) != [1, 2, 3, 4]:
         raise argparse.ArgumentTypeError(f"“{text}” must name each foot 1 to 4 once, such as 3-2-4-1")
     return order
+
+
+def tables_of(options: Namespace) -> tuple[str, ...]:
+    """The published tables that are asked for; none for all.
+
+    Raises:
+        InputError: they are asked for without their benchmark.
+    """
+    if options.tables is not None and PUBLISHED not in options.names:
+        raise InputError(
+            f"--table belongs to the benchmark {PUBLISHED}; name it: footfall bench {PUBLISHED} --table "
+            f"{','.join(options.tables)}.",
+            "--table",
+        )
+    return options.tables or ()
 
 
 def grid_of(options: Namespace) -> Grid | None:

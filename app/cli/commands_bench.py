@@ -12,10 +12,12 @@ from app.cli.bench_options import (
     GRID,
     MOVES,
     PHYSICS,
+    PUBLISHED,
     add_bench_options,
     grid_of,
     reports_of,
     require_no_measuring,
+    tables_of,
 )
 from app.cli.common.command import set_command
 from app.cli.common.output import INTERRUPTED, end_on_signals, note, show
@@ -50,6 +52,7 @@ def run_bench(options: Namespace) -> int:
         MOVES: (options.reference, reports.get(MOVES)),
         "walk": (options.reference,),
         "learning": (options.reference,),
+        PUBLISHED: (options.reference, tables_of(options)),
     }
     grid = grid_of(options)
     if grid is not None:

@@ -24,6 +24,7 @@ from app.emulator.profiles import ProfileName
 from app.export.trajectory_files import finds_companion, read_waypoints
 from app.export.way_files import checked_way, read_way_file
 from app.gaits.verdict_views import approval_view, override_view, override_words, verdict_view
+from app.published.reference import Reference
 from app.store.gait_files import default_data_folder
 from core.checks.rules import check_plan, check_waypoints
 from core.errors import CheckError, InputError, RobotError
@@ -55,6 +56,8 @@ def serve_command(parser: ArgumentParser) -> None:
     add("--token", nargs="?", const="", default=None, help=text)
     text = "play a video file as a camera of that name; may be given several times"
     add("--camera", action="append", default=[], metavar="NAME=VIDEO", help=text)
+    text = "folder of the published data, for the published experiments; it is remembered"
+    add("--reference", type=Path, default=None, metavar="FOLDER", help=text)
     add("--no-browser", action="store_true", help="do not open a browser")
 
 
@@ -69,6 +72,9 @@ def run_serve(options: Namespace) -> int:
             "--token",
         )
     _require_device(options.robot)
+    reference = None if options.reference is None else options.reference.expanduser().absolute()
+    if reference is not None:
+        Reference(reference)
     # The web server and the 3D scene take a second to load; the other commands do without them.
     from app.server.launch import ServeOptions, serve
 
@@ -81,6 +87,7 @@ def run_serve(options: Namespace) -> int:
             token=token,
             opens_browser=not options.no_browser,
             cameras=cameras,
+            reference=reference,
         ),
         _announce,
     )

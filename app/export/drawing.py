@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import pairwise
 
@@ -96,6 +96,17 @@ class Drawing:
     description: str
     background: str
     shapes: tuple[Shape, ...]
+
+
+def moved(shape: Shape, along: float) -> Shape:
+    """A shape farther to the right, px."""
+    match shape:
+        case Rule():
+            return replace(shape, x1=shape.x1 + along, x2=shape.x2 + along)
+        case Trace():
+            return replace(shape, points=tuple((x + along, y) for x, y in shape.points))
+        case _:
+            return replace(shape, x=shape.x + along)
 
 
 def hatching(box: Box, colour: str, spacing: float = 6.0, width: float = 1.6) -> Iterator[Rule]:

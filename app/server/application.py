@@ -24,7 +24,7 @@ from app.routes.gaits import (
 )
 from app.routes.gaits import segment_tables as tables
 from app.routes.lab import camera_setups as setups
-from app.routes.lab import cameras, learning, trial_comparisons, trial_photos, trials, videos
+from app.routes.lab import cameras, learning, published, trial_comparisons, trial_photos, trials, videos
 from app.routes.patterns import search as patterns
 from app.routes.robot import jog, motor_test, robot, runs
 from app.routes.viser_proxy import make_viser_router
@@ -65,6 +65,7 @@ _ROUTERS = (
     trial_photos.router,
     trials.router,
     learning.router,
+    published.router,
     setups.router,
     videos.router,
     cameras.router,

@@ -53,6 +53,8 @@ class ServeOptions:
     """Demanded of every request; one is made where it is empty, or None and the host is not loopback."""
     opens_browser: bool
     cameras: tuple[CameraAddress, ...] = ()
+    reference: Path | None = None
+    """Folder of the published data; None for the one that the data folder remembers."""
 
 
 def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
@@ -63,7 +65,8 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
         announce: told the URL, and who can reach it, as soon as the studio answers.
 
     Raises:
-        InputError: the port is busy, or the data folder cannot be used or is another studio's.
+        InputError: the port is busy, the data folder cannot be used or is another studio's, or there is no
+            published data in its folder.
     """
     give_back_freed_memory()
     sys.setswitchinterval(SWITCH_SECONDS)
@@ -79,6 +82,8 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
         lock.tell(_url(options.host, listening.getsockname()[1], None))
         studio = Studio(options.data, options.device, options.cameras)
         try:
+            if options.reference is not None:
+                studio.published.name_folder(str(options.reference))
             app = make_app(studio, scenes, Access(options.host, token))
             config = uvicorn.Config(
                 app,

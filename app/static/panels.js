@@ -12,6 +12,7 @@ import { mountStage } from "./stage/stage.js";
 import { attempt } from "./lib/toasts.js";
 import { byId } from "./lib/dom.js";
 import { mountTrialEntry } from "./lab/entry.js";
+import { mountPublishedEntry } from "./published/entry.js";
 import { mountNextActs } from "./steps/next_act.js";
 import { openStep } from "./steps/steps.js";
 import { selectGait } from "./shell/gait_list.js";
@@ -89,9 +90,11 @@ export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
   const countdown = mountRobot(store, edits, playback);
   mountVersions(store, edits);
   const trials = mountTrialEntry(store);
+  const published = mountPublishedEntry(store);
   const runs = mountRuns(store);
   mountNextActs(store);
   mountFirstSteps(store, playback);
   mountStage(store, edits, playback);
-  return { segments: segments.escape, sequence: sequence.cancel, countdown, runs: () => runs() || trials() };
+  const drawers = () => runs() || trials() || published();
+  return { segments: segments.escape, sequence: sequence.cancel, countdown, runs: drawers };
 }

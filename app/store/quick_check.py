@@ -23,6 +23,7 @@ _PARTS = {
     "camera": "cameras",
     "learning": "learned parameters",
     "physics": "learned parameters",
+    "published": "figures of published gaits",
 }
 """What is in the tables, by the beginning of their names."""
 

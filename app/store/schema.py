@@ -227,6 +227,11 @@ def _add_set_aside(connection: sqlite3.Connection) -> None:
     )
 
 
+def _add_published(connection: sqlite3.Connection) -> None:
+    """Computed figures of the published tables' gaits, by what was computed."""
+    connection.execute("CREATE TABLE published(key TEXT PRIMARY KEY, made REAL, content TEXT)")
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
@@ -240,6 +245,7 @@ _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_reasons,
     _add_edit_numbers,
     _add_set_aside,
+    _add_published,
 )
 
 NEWEST = len(_MIGRATIONS)

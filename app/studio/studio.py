@@ -22,6 +22,8 @@ from app.jobs.optimisation_service import OptimisationService, likely_problem
 from app.jobs.repository import JobRepository
 from app.learning.service import LearningService
 from app.pattern_search.service import PatternSearchService
+from app.published.reference_folder import REFERENCE, ReferenceFolder
+from app.published.service import PublishedService
 from app.remedies.run import RemedyParts
 from app.remedies.service import RemedyService
 from app.robot.jog_service import JogService
@@ -36,6 +38,7 @@ from app.simulation.repository import SimulationRepository
 from app.simulation.service import SimulationService
 from app.store.database import DATABASE, Database
 from app.store.gait_files import ATLASES, GaitFiles, require_places
+from app.store.tables.published_store import PublishedStore
 from app.store.tables.simulation_store import SimulationStore
 from app.store.tables.trial_reference_store import TrialReferenceStore
 from app.studio.database_keeper import DatabaseKeeper
@@ -56,6 +59,9 @@ PATTERN_PROCESSES = 2
 """Pattern searches that go on at one time; each process starts when it is first needed."""
 LEARNING_PROCESSES = 2
 """Gaits that are simulated at one time while the studio learns from trials; started when first needed."""
+
+PUBLISHED_SECONDS = 120.0
+"""How long the plan of a published gait may wait for the live solver, whose process may still start, s."""
 
 STARTS_SOLVERS_AHEAD = True
 """Whether the live and the exact solver are started and warmed up before they are asked anything."""
@@ -159,9 +165,13 @@ class Studio:
         self._trial_simulations = self._register(
             TrialSimulations(TrialReferenceStore(self._database), simulator)
         )
+        folder = ReferenceFolder(data / REFERENCE)
+        solve = partial(self._solver.solve, timeout=PUBLISHED_SECONDS)
+        store = PublishedStore(self._database)
+        self.published = self._register(PublishedService(store, simulator, solve, folder, self.hub.publish))
         self._register(
             simulator
-        )  # closed before both, which wait for it; it starts with the first simulation
+        )  # closed before them, which wait for it; it starts with the first simulation
 
     def _open_trials(self, data: Path, cameras: Sequence[CameraAddress]) -> None:
         """Runs, trials, videos and cameras."""

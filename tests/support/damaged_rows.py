@@ -39,6 +39,8 @@ LISTS = (
     "/api/cameras",
     "/api/learning",
     "/api/learning/sets",
+    "/api/published",
+    "/api/published/t4-2",
     "/api/simulations/sets?robot=deltawalker",
     "/api/gaits",
     "/api/gaits/deleted",

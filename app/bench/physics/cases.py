@@ -5,23 +5,16 @@ from dataclasses import replace
 import numpy as np
 
 from app.bench.common.cases import Case, all_cases
-from app.bench.common.published import Reference
-from app.export.trajectory_files import read_text
-from app.learning.published_trials import problem_within_range
 from app.plans.verified_result import verify
-from app.simulation.problem import way_problem
+from app.published.problems import own_problem, walker
 from core.arrays import Floats, interpolated
 from core.gait.gait import drawn_timeline, motion_problem
 from core.gait.manual_motion import manual_motion
-from core.library.library import library, manual_entry
-from core.motion.contact_timeline import timeline_from_order
+from core.library.library import manual_entry
 from core.motion.trajectory import Trajectory
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
 from core.problem.motion_problem import Workspace
-from core.robot.model import RobotModel, load_robot
-from core.wire.trajectory_csv import parse_trajectory_csv
-from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import SolveStatus, solve_exact
 
 MARGINS = (0.003, 0.0025, 0.002, 0.001, 0.0)
@@ -29,11 +22,6 @@ MARGINS = (0.003, 0.0025, 0.002, 0.001, 0.0)
 
 TIPPING = -0.005
 """Margin of a gait made to tip, m."""
-
-
-def walker() -> RobotModel:
-    """The published robot."""
-    return load_robot("deltawalker")
 
 
 def solved_cases(group: str) -> dict[str, tuple[float, Trajectory]]:
@@ -65,37 +53,9 @@ def solved_case(case: Case) -> tuple[float, Trajectory] | None:
     return None
 
 
-def own_problem(motion: Trajectory, physics: PhysicsSet) -> SimulationProblem:
-    """A motion with one waypoint a sample, as the published ones were run."""
-    model = walker()
-    return way_problem(model, motion, plan_waypoints(model, motion), physics)
-
-
 def manual_problem(family: str, version: int, physics: PhysicsSet) -> SimulationProblem:
     """A gait made by hand, one waypoint a sample."""
     return own_problem(manual_motion(manual_entry(family, version).gait, walker()).trajectory, physics)
-
-
-def published_problem(
-    reference: Reference, gait: str, step: float, physics: PhysicsSet
-) -> tuple[SimulationProblem, float]:
-    """A published trajectory as the published program sent it, and the most that it cut off a stroke, m.
-
-    Args:
-        reference: the published data.
-        gait: name of a gait of the library.
-        step: m.
-        physics: the parameters.
-
-    Raises:
-        InputError: the file is missing or is no trajectory.
-    """
-    model = walker()
-    path = reference.trajectory_path(gait, step)
-    motion = parse_trajectory_csv(read_text(path), path.name).trajectory
-    timeline = timeline_from_order(model.leg_count, library()[gait].gait.order, closing_knots=0)
-    motion = replace(motion, contact=timeline.stance.T)
-    return problem_within_range(model, motion, physics)
 
 
 def tipping(motion: Trajectory, margin: float = TIPPING) -> Trajectory:

@@ -4,12 +4,12 @@ import math
 from pathlib import Path
 
 from app.bench.common.measure import Row
-from app.bench.common.published import Reference
 from app.common.json import Json
 from app.export.trajectory_files import read_text
 from app.learning.published_trials import walks_of_table
 from app.learning.runner import WalkRunner
 from app.learning.views import learned_content
+from app.published.reference import Reference
 from app.trials.figures import ROBOT
 from core.errors import InputError
 from core.identification.learning import POINTS, learn

@@ -5,25 +5,13 @@ from html import escape
 
 import numpy as np
 
-from app.bench.common.published import PublishedRun
-from app.bench.physics.runs import ManualCase, OptimisedCase, Walked
+from app.bench.physics.runs import ManualCase, OptimisedCase
 from app.common.version import VERSION
 from app.export.path_plot import Ways, way_plot
 from app.export.svg import svg
-
-FIGURES = {
-    ("walk", False): "4.2",
-    ("amble", False): "4.3",
-    ("s-gait", False): "4.4",
-    ("walk", True): "4.5",
-    ("amble", True): "4.6",
-    ("s-gait", True): "4.7",
-    ("c-gait", True): "4.8",
-}
-"""Number of the thesis's figure, by gait and whether it is optimised."""
-
-ROOM = 0.006
-"""Space around the farthest way, m."""
+from app.published.plots import FIGURES, ROOM
+from app.published.reference import PublishedRun
+from app.published.walked import Walked
 
 _STYLE = """
 :root { color-scheme: light; }

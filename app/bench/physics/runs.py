@@ -1,27 +1,18 @@
 """Every simulated walk of the physics benchmark, run once and kept as far as tables and plots need it."""
 
+import math
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-
-from app.bench.common.published import (
-    MANUAL_FEET,
-    MANUAL_HEIGHT,
-    TABLE_4_1,
-    TABLE_4_2,
-    PublishedRun,
-    Reference,
-)
-from app.bench.physics.cases import manual_problem, own_problem, published_problem, solved_cases, tipping
-from core.arrays import Floats
+from app.bench.physics.cases import manual_problem, solved_cases, tipping
+from app.published.problems import own_problem, published_problem
+from app.published.reference import PublishedRun, Reference
+from app.published.walked import Walked, walked_motion
 from core.motion.trajectory import Trajectory
-from core.physics.findings import longest_slides
-from core.physics.metrics import report
 from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.problem import SimulationProblem
-from core.physics.report import SimulationReport
+from core.published.tables import PublishedRow, published_table
 from core.robot.kinematics import UnreachableError
 from solver_jobs import simulate
 
@@ -29,57 +20,11 @@ LARGEST_TIPPED = 0.0201
 """Steps up to this are tried as gaits made to tip; the feet of longer ones do not reach that far, m."""
 
 
-@dataclass(frozen=True, eq=False)
-class Walked:
-    """One simulated walk.
-
-    Args:
-        problem: what was asked.
-        report: its figures.
-        body: (reached, 3) at each waypoint's arrival, m.
-        feet: (reached, legs, 3) m.
-        robot_seconds: from first to last arrival.
-        processor_seconds: computing time of one core, whatever else the machine does.
-    """
-
-    problem: SimulationProblem
-    report: SimulationReport
-    body: Floats
-    feet: Floats
-    robot_seconds: float
-    processor_seconds: float
-
-    @property
-    def longest_slide(self) -> float:
-        """The longest way that any sole slid during one stance, m."""
-        return float(longest_slides(self.report, self.problem)[0].max())
-
-    @property
-    def planned(self) -> tuple[Floats, Floats]:
-        """Body (reached, 3) and feet (reached, legs, 3) of the plan, m."""
-        plan = self.problem.plan
-        rows = np.searchsorted(plan.times, self.problem.times[: len(self.body)] - 1e-9)
-        return plan.body_world[rows], plan.feet_world[rows]
-
-    @property
-    def standing_error(self) -> float:
-        """The error as Table 4.1 defines it (see `Reference.manual_run`), m."""
-        planned_body, planned_feet = self.planned
-        plane = planned_body - [0.0, 0.0, self.problem.model.com_height]
-        wanted = planned_feet - plane[:, None] + [0.0, 0.0, MANUAL_HEIGHT]
-        gaps = np.linalg.norm(self.feet - wanted, axis=-1).mean(axis=0)
-        return float(gaps[:MANUAL_FEET].mean())
-
-
 def walked(problem: SimulationProblem) -> Walked:
     """Simulates one walk in this process."""
     begin = time.process_time()
     motion = simulate(problem)
-    spent = time.process_time() - begin
-    figures = report(problem, motion)
-    reached = motion.arrivals[: problem.waypoints.count]
-    whole = float(motion.times[reached[-1]] - motion.times[reached[0]])
-    return Walked(problem, figures, motion.body_world[reached], motion.feet_world[reached], whole, spent)
+    return walked_motion(problem, motion, time.process_time() - begin)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +79,8 @@ def optimised_cases(reference: Reference | None) -> Iterator[OptimisedCase]:
     """The sixteen cases of Table 4.2."""
     published, scales = physics_set("published"), physics_set("scales")
     solved = solved_cases("steps")
-    for (gait, step), thesis in TABLE_4_2.items():
+    for row in published_table("t4-2").rows:
+        gait, step, thesis = row.gait.family, row.gait.step, printed(row, "feet_mm")
         margin, motion = solved[f"{gait} {step * 1000:.0f} mm"]
         theirs, again, cut = None, None, None
         if reference is not None:
@@ -146,10 +92,17 @@ def optimised_cases(reference: Reference | None) -> Iterator[OptimisedCase]:
 
 def manual_cases(reference: Reference | None) -> Iterator[ManualCase]:
     """The nine cases of Table 4.1."""
-    for (family, version), thesis in TABLE_4_1.items():
+    for row in published_table("t4-1").rows:
+        family, version, thesis = row.gait.family, row.gait.version or 0, printed(row, "feet_mm")
         own = walked(manual_problem(family, version, physics_set("published")))
         theirs = None if reference is None else reference.manual_run(family, version, own.problem.model)
         yield ManualCase(family, version, thesis, theirs, own)
+
+
+def printed(row: PublishedRow, figure: str) -> float:
+    """A printed error of a row, m; nan where it cannot be read."""
+    value = row.printed[figure]
+    return math.nan if value is None else value / 1000.0
 
 
 def paper_cases() -> Iterator[tuple[str, Walked]]:

@@ -1,28 +1,29 @@
 """The physics beside what was published: thesis Tables 4.1 and 4.2, the paper's Table I, and the bars."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from app.bench.common.measure import Row
-from app.bench.common.published import PAPER_TABLE_I, PublishedRun, Reference
 from app.bench.physics.page import physics_page
 from app.bench.physics.runs import (
     ManualCase,
     OptimisedCase,
-    Walked,
     manual_cases,
     optimised_cases,
     paper_cases,
     tipped,
     walked,
 )
+from app.published.reference import PublishedRun, Reference
+from app.published.walked import Walked
 from app.store.named_file import write_named
 from core.errors import InputError
 from core.physics.findings import TILT_LIMIT
 from core.physics.parameters import physics_set
+from core.published.tables import published_table
 from solver_jobs import simulate_variations
 
 FALL_MARGIN = 0.003
@@ -114,14 +115,20 @@ def paper_rows(label: str, run: Walked) -> list[Row]:
     """Table I: body and feet 1 to 4."""
     ours = (run.report.body_error, *run.report.feet_error)
     lean = {"lean_deg": _deg(run.report.max_tilt), "falls": _yes(run.report.fell)}
+    theirs = [None if error is None else error / 1000.0 for error in _printed(label)]
     rows: list[Row] = []
     for who, errors, rest in (
-        ("paper", PAPER_TABLE_I[label], {"lean_deg": None, "falls": None}),
+        ("paper", theirs, {"lean_deg": None, "falls": None}),
         ("ours", ours, lean),
     ):
         cells = {name: _mm(error) for name, error in zip(("body", "1", "2", "3", "4"), errors, strict=True)}
         rows.append({"paper Table I, mm": label, "who": who, **cells, **rest})
     return rows
+
+
+def _printed(label: str) -> Iterable[float | None]:
+    """Errors of body and feet in a row of the paper's table, mm."""
+    return published_table("p-1").row(label).printed.values()
 
 
 def _figures(run: Walked) -> Row:

@@ -1,1 +1,1 @@
-"""HTTP routes of trials, cameras, videos and learning."""
+"""HTTP routes of trials, cameras, videos, learning and published experiments."""

@@ -70,7 +70,7 @@ export const request = async (method, path, body, signal) =>
   (await answer(method, path, body, signal)).json();
 
 /** @type {(method: string, path: string, body?: Json) => Promise<ArrayBuffer>} */
-const bytes = async (method, path, body) => (await answer(method, path, body)).arrayBuffer();
+export const bytes = async (method, path, body) => (await answer(method, path, body)).arrayBuffer();
 
 /**
  * Makes requests about one thing of a kind, known by its id.

@@ -151,6 +151,25 @@ function resultPart(store, goToTime) {
   return { elements: [note, help, figures, map.element], follow };
 }
 
+/** Begins the simulation that another part of the page wants, as soon as the gait has a plan. */
+function followWanted(store, begin) {
+  store.watch(
+    ({ simulateWanted, selected, view, jobs, pending }) => [
+      simulateWanted,
+      selected,
+      view,
+      jobs,
+      pending.length,
+    ],
+    (state) => {
+      const { simulateWanted: wanted, selected, view } = state;
+      if (!wanted || (selected === wanted && (view?.id !== wanted || whyNot(state)))) return;
+      store.set({ simulateWanted: null });
+      if (selected === wanted && simulateState(state).mark !== "done") begin();
+    },
+  );
+}
+
 /** Builds the section; `goToTime` brings the playhead to a time of the plan. */
 export function mountSimulate(store, goToTime) {
   const run = h("button", { id: "act-simulate", text: "Simulate" });
@@ -167,6 +186,7 @@ export function mountSimulate(store, goToTime) {
   byId("foot-simulate").append(h("div", { class: "solve" }, run, vary));
   byId("simulate").append(sets, progress.element, ...result.elements, h("p", { class: "why", text: AXIS }));
   followSimulation(store);
+  followWanted(store, press(0));
 
   store.watch(
     ({ jobs, view, pending, selected, simulation, live }) => [

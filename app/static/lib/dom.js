@@ -104,6 +104,12 @@ export function onPress(button, act, explain = () => {}) {
 }
 
 /**
+ * Whether an element is shown, in or out of the window.
+ * @param {Element} element
+ */
+export const isShown = (element) => element.checkVisibility({ visibilityProperty: true });
+
+/**
  * Resolves when the current changes have been painted.
  * @returns {Promise<void>}
  */

@@ -4,7 +4,7 @@ import { byId, h, icon, setAttribute, setText } from "../lib/dom.js";
 import { remember, remembered } from "../lib/remembered.js";
 import { jobIsOn } from "./job_list.js";
 
-const NAMES = ["gaits", "jobs", "runs", "trials"];
+const NAMES = ["gaits", "jobs", "runs", "trials", "published"];
 const KEY = "drawer";
 /** Drawers lie over the stage in a narrow window, so that none is open there until somebody opens it. */
 const ROOMY = "(min-width: 1000px)";

@@ -104,6 +104,8 @@ export function mountEdges() {
   drawers.append(drawerEdge);
   inspector.append(inspectorEdge, handle);
   const isWide = () => ["runs", "trials"].includes(document.body.dataset.drawer);
+  /** Whether a drawer stands beside the stage; that of published experiments lies over it. */
+  const isBeside = () => ![undefined, "published"].includes(document.body.dataset.drawer);
   const rest = (own) => window.innerWidth - LEAST_STAGE_PX - byId("rail-gaits").offsetWidth - own;
   mountEdge({
     name: "drawer",
@@ -119,7 +121,7 @@ export function mountEdges() {
     name: "inspector",
     variable: () => "--right-kept",
     least: 320,
-    most: () => Math.min(560, rest(document.body.dataset.drawer ? drawers.offsetWidth : 0)),
+    most: () => Math.min(560, rest(isBeside() ? drawers.offsetWidth : 0)),
     size: () => inspector.offsetWidth,
     grows: -1,
     axis: "x",

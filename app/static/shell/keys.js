@@ -1,7 +1,7 @@
 /** The keyboard of the whole page. Nothing here powers, starts or moves the robot; Esc stops it. */
 
 import { dialogOpen } from "../lib/dialogs.js";
-import { byId } from "../lib/dom.js";
+import { byId, isShown } from "../lib/dom.js";
 import { foldDrawer } from "./drawers.js";
 import { showKeys } from "./key_list.js";
 import { goToPart } from "./part_keys.js";
@@ -23,9 +23,12 @@ function ownsSpace(target, withShift) {
 /** True where no key of the page acts: in a dialog, and where keys drive the robot. */
 const isElsewhere = ({ target }) => dialogOpen() || Boolean(target.closest?.("[data-drive]"));
 
-/** True where letters, Delete and Ctrl with a letter mean something else than the timeline. */
+/** True where letters, Delete and Ctrl with a letter mean something else, or the timeline is not shown. */
 const ownsLetters = (target) =>
-  Boolean(target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog], [data-keys]"));
+  !isShown(byId("timeline"))
+  || Boolean(
+    target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog], [data-keys]"),
+  );
 
 /**
  * What a key with Ctrl does; null for nothing.

@@ -1,5 +1,7 @@
 /** The key F6: from one part of the page to the next, with Shift to the one before. */
 
+import { isShown } from "../lib/dom.js";
+
 /** The parts in their order; the button of the next act is one of its own. */
 const PARTS = [
   ".topbar",
@@ -15,10 +17,7 @@ const PARTS = [
 const STOPS = "a[href], button, input, select, summary, [tabindex]";
 
 const isStop = (element) =>
-  element.tabIndex >= 0
-  && !element.disabled
-  && element.checkVisibility({ visibilityProperty: true })
-  && !element.closest("[inert]");
+  element.tabIndex >= 0 && !element.disabled && isShown(element) && !element.closest("[inert]");
 
 /** Of a foot the button of the next act, else what Tab reaches first; undefined where the part is hidden. */
 function firstStop(part) {

@@ -45,6 +45,7 @@ const RECEIVERS = {
   pattern: (store, pattern) => store.set({ pattern }),
   setups: (store, { setups }) => store.set({ setups }),
   cameras: (store, { cameras }) => store.set({ cameras }),
+  published: (store, { table }) => store.set({ publishedChanged: { table } }),
   video: (store, { video }) => store.set({ videoChanged: video }),
   trials: (store, { trial }) => store.set({ trialMade: { id: trial } }),
   trial: (store, { trial }) =>

@@ -4,8 +4,8 @@
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`,
  * `pending`, `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`,
  * `preview`, `zoom`, `live`, `tryout`, `worked`, `remedies`, `iterate`, `formRefusal` (the edit behind
- * `formError`), `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `fastestWanted`,
- * `atlasWanted`, `physicsSets`) belongs to this tab alone.
+ * `formError`), `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`,
+ * `simulateWanted` (a gait), `fastestWanted`, `atlasWanted`, `physicsSets`) belongs to this tab alone.
  */
 
 /**
@@ -57,7 +57,9 @@ const INITIAL = Object.freeze({
   trialMade: null,
   trialChanges: Object.freeze({}),
   videoChanged: null,
+  publishedChanged: null,
   trialWanted: null,
+  simulateWanted: null,
   fastestWanted: null,
   atlasWanted: null,
   physicsSets: 0,

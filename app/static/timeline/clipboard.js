@@ -4,6 +4,8 @@
  * The system's clipboard is used where the browser allows it; otherwise one of the page's own.
  */
 
+import { byId, isShown } from "../lib/dom.js";
+
 let own = null;
 
 /** The text of a block. */
@@ -58,6 +60,7 @@ export async function clipboardText() {
 
 /** Whether copy, cut and paste mean something else: text that is marked or typed, other tables. */
 const isElsewhere = (event) => {
+  if (!isShown(byId("timeline"))) return true;
   const place = event.target instanceof Element ? event.target : document.activeElement;
   if (
     place?.closest(

@@ -292,3 +292,13 @@ PHYSICS_SET = Fields(
         "note": text,
     }
 )
+
+PUBLISHED = Fields(
+    {
+        "figures": Mapped(Mapped(Mapped(Maybe(NUMBER)))),
+        "sentence": text,
+        "is_refused": truth,
+        "ways": Mapped(OBJECT),
+    }
+)
+"""Figures of a published gait by whose they are, by definition and name, and ways for the plot."""

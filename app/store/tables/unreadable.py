@@ -14,6 +14,7 @@ from app.store.tables.edit_history_store import APPROVALS, HISTORY, OF_GAIT, OPE
 from app.store.tables.job_store import JOBS
 from app.store.tables.learning_store import COURSES, PHYSICS_SETS
 from app.store.tables.photo_store import PHOTOS
+from app.store.tables.published_store import FIGURES as PUBLISHED_FIGURES
 from app.store.tables.result_store import RESULTS
 from app.store.tables.run_store import ALL_FIGURES, PIECES, RUN_PLANS, RUNS, STATES
 from app.store.tables.simulation_store import SIMULATION_CONTENTS, SIMULATIONS
@@ -49,6 +50,7 @@ KINDS: tuple[TableKind[Any], ...] = (
     COURSES,
     PHYSICS_SETS,
     TIMES,
+    PUBLISHED_FIGURES,
 )
 """What each table holds."""
 NOT_SET_ASIDE = frozenset(kind.name for kind in KINDS if kind.way_out == OF_GAIT)

@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.bench.common.published import PublishedRun
 from app.bench.physics import runs as physics_runs
 from app.bench.physics.cases import manual_problem
 from app.bench.physics.page import physics_page
 from app.bench.physics.runs import ManualCase, OptimisedCase, walked
 from app.bench.physics.tables import bench_physics, manual_row, own_row, paper_rows, published_rows
+from app.published.reference import PublishedRun
 from core.errors import InputError
 from core.physics.parameters import physics_set
 from core.physics.problem import SimulationProblem

@@ -9,16 +9,10 @@ import numpy as np
 import pytest
 
 from app.bench.common.cases import Case, all_cases
-from app.bench.common.published import Reference
 from app.bench.physics import cases as physics_cases
-from app.bench.physics.cases import (
-    manual_problem,
-    own_problem,
-    published_problem,
-    solved_case,
-    tipping,
-    walker,
-)
+from app.bench.physics.cases import manual_problem, solved_case, tipping
+from app.published.problems import own_problem, published_problem, walker
+from app.published.reference import Reference
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.physics.parameters import physics_set

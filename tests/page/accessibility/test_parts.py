@@ -70,7 +70,7 @@ def test_the_segment_table_and_the_choice_of_a_segment(page: Page) -> None:
 
 
 def test_drawers_and_their_menus(page: Page, studio: StudioProcess) -> None:
-    for name in ("Jobs", "Runs", "Trials", "Gaits"):
+    for name in ("Jobs", "Runs", "Trials", "Papers", "Gaits"):
         open_drawer(page, name)
         require_no_finding(page, name)
     page.get_by_role("list", name="Gaits").get_by_role("button", name="Examples").click()

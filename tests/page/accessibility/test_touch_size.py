@@ -32,7 +32,7 @@ def test_sheet_steps_and_views(page: Page) -> None:
 
 
 def test_drawers_over_the_preview_and_the_help(page: Page) -> None:
-    for name in ("Gaits", "Jobs", "Runs", "Trials"):
+    for name in ("Papers", "Gaits", "Jobs", "Runs", "Trials"):
         page.get_by_role("navigation", name="Project").get_by_role("button", name=name).tap()
         require_no_finding(page, name)
     page.get_by_role("button", name="Close trials").tap()

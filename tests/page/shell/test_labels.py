@@ -90,7 +90,7 @@ def test_no_label_is_cut_and_no_two_texts_overlap(
             page.set_viewport_size(usual)
 
     look("design")
-    for name in ("Jobs", "Runs", "Trials", "Gaits"):
+    for name in ("Jobs", "Runs", "Trials", "Papers", "Gaits"):
         open_drawer(page, name)
         look(f"drawer {name}")
     page.get_by_role("button", name="Close gaits").click()

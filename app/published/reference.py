@@ -1,4 +1,4 @@
-"""What was published of simulated gaits: tables of thesis and paper, and the files behind them."""
+"""The published data: simulated runs, trajectories and foot tracks, read from a folder of theirs."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,46 +12,6 @@ from core.physics.metrics import tilts
 from core.robot.model import RobotModel
 from core.text.tables import read_table
 
-TABLE_4_1 = {
-    ("walk", 0): 0.0028,
-    ("walk", 1): 0.0033,
-    ("walk", 2): 0.0028,
-    ("amble", 0): 0.0026,
-    ("amble", 1): 0.0023,
-    ("amble", 2): 0.0022,
-    ("s-gait", 0): 0.0043,
-    ("s-gait", 1): 0.0026,
-    ("s-gait", 2): 0.0034,
-}
-"""Thesis Table 4.1: errors of the gaits made by hand, by family and version, m."""
-
-TABLE_4_2 = {
-    ("walk", 0.010): 0.0017,
-    ("walk", 0.015): 0.0016,
-    ("walk", 0.020): 0.0020,
-    ("walk", 0.025): 0.0064,
-    ("amble", 0.010): 0.0021,
-    ("amble", 0.015): 0.0038,
-    ("amble", 0.020): 0.0059,
-    ("amble", 0.025): 0.0050,
-    ("s-gait", 0.010): 0.0017,
-    ("s-gait", 0.015): 0.0034,
-    ("s-gait", 0.020): 0.0028,
-    ("s-gait", 0.025): 0.0060,
-    ("c-gait", 0.010): 0.0018,
-    ("c-gait", 0.015): 0.0028,
-    ("c-gait", 0.020): 0.0046,
-    ("c-gait", 0.025): 0.0079,
-}
-"""Thesis Table 4.2: errors of the optimised gaits, by gait and step (m), m."""
-
-PAPER_TABLE_I: dict[str, tuple[float | None, ...]] = {
-    "A": (0.0080, 0.0077, 0.0077, 0.0070, 0.0070),
-    "B": (0.0018, 0.0016, 0.0019, None, 0.0016),
-    "C": (0.0030, 0.0038, 0.0046, 0.0030, 0.0031),
-}
-"""Paper Table I: errors of the body and of feet 1 to 4, m; one of B is not legible in the source."""
-
 MANUAL_HEIGHT = 0.053
 """Height at which Table 4.1 takes the body to stay, actuator plane over the standing feet, m."""
 MANUAL_FEET = 3
@@ -61,6 +21,8 @@ _OPTIMISED = {"walk": ("A", "walk"), "amble": ("B", "ambl"), "s-gait": ("C", "mt
 """Letter of a gait's simulated files, and the beginning of its trajectories' names."""
 _BY_HAND = {"walk": "A", "amble": "B", "s-gait": "C"}
 _FOLDERS = ("simulation_manual", "simulation_optimised", "trajectories")
+_THREE = "e"
+"""Name of the size of a trajectory of three iterations."""
 _STEPS = {0.010: "a", 0.015: "b", 0.020: "c", 0.025: "d"}
 
 
@@ -123,13 +85,41 @@ class Reference:
         missing = [name for name in _FOLDERS if not (self.folder / name).is_dir()]
         if missing:
             raise InputError(
-                f"{self.folder} holds no {missing[0]}; name the published data's folder after --reference.",
-                "--reference",
+                f"{self.folder} holds no {missing[0]}; name the published data's folder, which holds "
+                f"{', '.join(_FOLDERS)}.",
+                "reference",
             )
 
-    def trajectory_path(self, gait: str, step: float) -> Path:
-        """File of an optimised trajectory, direction 1."""
-        return self.folder / "trajectories" / "direction1" / f"{_OPTIMISED[gait][1]}_{_STEPS[step]}.csv"
+    def trajectory_path(self, gait: str, step: float, iterations: int = 1) -> Path:
+        """File of an optimised trajectory, direction 1; three iterations in one are 6 cm long."""
+        size = _THREE if iterations > 1 else _STEPS[step]
+        return self.folder / "trajectories" / "direction1" / f"{_OPTIMISED[gait][1]}_{size}.csv"
+
+    def run_paths(self, gait: str, step: float, version: int | None) -> list[Path]:
+        """Files of a gait's simulated run, and of its plan where it was made by hand."""
+        if version is None:
+            return [self._optimised_path(gait, step)]
+        name = f"traj{_BY_HAND[gait]}{version}_o1.csv"
+        return [self.folder / "simulation_manual" / part / name for part in ("simulated", "planned")]
+
+    def run(self, gait: str, step: float, version: int | None, model: RobotModel) -> PublishedRun | None:
+        """The simulated run of a gait; None where it was not published.
+
+        Raises:
+            InputError: a file is missing or is no such table.
+        """
+        if version is None:
+            return self.optimised_run(gait, step, model)
+        return self.manual_run(gait, version, model)
+
+    def _optimised_path(self, gait: str, step: float) -> Path:
+        name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_o1.csv"
+        return self.folder / "simulation_optimised" / "simulated" / name
+
+    def track_paths(self, gait: str, step: float) -> tuple[Path, ...]:
+        """Files of the foot tracks of an optimised gait's trials, three iterations each."""
+        name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_t*_o1_3x.csv"
+        return tuple(sorted((self.folder / "robot_trials" / "tracks_cm").glob(name)))
 
     def _table(self, path: Path, header: int = 0) -> Floats:
         return _numbers(path, read_text(path), header)
@@ -146,9 +136,7 @@ class Reference:
             InputError: a file is missing or is no such table.
         """
         name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_o1"
-        body, feet = _positions(
-            self._table(self.folder / "simulation_optimised" / "simulated" / f"{name}.csv"), 1
-        )
+        body, feet = _positions(self._table(self._optimised_path(gait, step)), 1)
         wanted = _positions(self._table(self.trajectory_path(gait, step), header=1), 0)
         printed = self._table(self.folder / "simulation_optimised" / "errors" / f"{name}_mse.csv")[0]
         return PublishedRun(body + [0.0, 0.0, model.com_height], feet, *wanted, tuple(printed / 100))

@@ -10,8 +10,8 @@ _DEFINITIONS = {
     Kind.STANDING: (
         "An error is the mean distance of feet 1 to 3, over all waypoints, from where they would be if the "
         "robot stood still at the origin, 53 mm high. So the way that the robot goes counts as an error.",
-        "By this definition our gaits are worse, 3.0 to 6.8 mm against 2.2 to 4.3 mm, because they go further "
-        "than those of the published runs: of 10 mm, Walk 0 goes 12.1 mm in our physics and 2.8 mm in theirs. "
+        "By this definition our gaits are worse, 3.0 to 6.8 mm against 2.2 to 4.3 mm, because they go "
+        "further than the published runs: of 10 mm, Walk 0 goes 12.1 mm in our physics and 2.8 mm in theirs. "
         "“Feet from the plan” is the mean distance of all four feet from the motion that is planned.",
     ),
     Kind.TRACKING: (

@@ -128,9 +128,9 @@ def require_no_measuring(options: Namespace) -> None:
     Raises:
         InputError: one does.
     """
-    for name in ("report", "markdown", "grid", *_LIMITS):
+    for name in ("report", "markdown", "grid", "tables", *_LIMITS):
         if getattr(options, name):
-            option = f"--{name.replace('_', '-')}"
+            option = "--table" if name == "tables" else f"--{name.replace('_', '-')}"
             raise InputError(
                 f"{option} does not go with --docs, which measures nothing; leave it out.", option
             )

@@ -53,7 +53,7 @@ def find_iterations(track: FootTrack, count: int) -> FoundIterations:
         count: number of iterations.
 
     Raises:
-        InputError: the track is too short for so many.
+        InputError: the track is too short for so many, or has no frames where they end.
     """
     times, feet = _even(track)
     interval, frames = float(np.median(np.diff(times))), times.size
@@ -70,9 +70,16 @@ def find_iterations(track: FootTrack, count: int) -> FoundIterations:
     firsts, lasts = steps.min(axis=0), steps.max(axis=0)
     ends = np.append((lasts[:-1] + firsts[1:]) // 2, frames - 1)
     numbers = np.interp(times, track.times, np.arange(track.times.size)).round().astype(np.int64)
-    return FoundIterations(
-        numbers[steps], tuple(numbers[ends].tolist()), bool((lasts[:-1] < firsts[1:]).all())
-    )
+    found = numbers[ends]
+    if (np.diff(found, prepend=0) <= 0).any():
+        gaps = np.diff(track.times)
+        last = int(gaps.argmax())
+        raise InputError(
+            f"The ends of {count} iterations cannot be told apart: after {track.times[last]:.2f} s the track "
+            f"has no frame for {gaps[last]:.2f} s. Give fewer iterations, or a track without this gap.",
+            "iterations",
+        )
+    return FoundIterations(numbers[steps], tuple(found.tolist()), bool((lasts[:-1] < firsts[1:]).all()))
 
 
 def _even(track: FootTrack) -> tuple[Floats, Floats]:

@@ -1,6 +1,7 @@
-"""When each frame of a film was taken, from a file: one time a line, or a column of a table (s)."""
+"""The time of each frame of a film, from a file: one time a line, or a column of a table (s)."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,8 +17,8 @@ UNIT = re.compile(r"(?:[ _]+s|[ _]*[(\[]s[)\]])$")
 """The unit s behind a column's name: `time (s)`, `time [s]`, `time s`, `time_s`."""
 LATEST = 1e10
 """No time is farther from 0 than this, s; seconds since 1970 are nearer."""
-RATES = (0.1, 1000.0)
-"""Bounds of the mean frame rate, Hz."""
+INTERVALS = (0.001, 10.0)
+"""Bounds of the time between two frames, s."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,24 +82,33 @@ def read_frame_times(text: str, name: str) -> FrameTimes:
     times = replace(table, rows=cells, columns_left_out=left_out).numbers(first, 1).ravel()
     if times.size < 2:
         raise InputError(f"{name} holds {times.size} times; a track needs at least two.", name)
-    far = np.abs(times) > LATEST
-    falls = np.append(False, np.diff(times) <= 0.0)
-    for index in np.flatnonzero(far | falls)[:1].tolist():
-        fault = (
-            f"{times[index]:g} s is farther from 0 than {LATEST:g} s"
-            if far[index]
-            else f"{times[index]:.10g} s does not come after {times[index - 1]:.10g} s, the time before"
-        )
-        place = f"{name}:{table.lines[first + index]}"
-        raise InputError(f"{place}: {fault}. Give the frames' times in order, in seconds.", place)
-    rate = (times.size - 1) / (times[-1] - times[0])
-    if not RATES[0] <= rate <= RATES[1]:
-        raise InputError(
-            f"{name}: by its times the film has {rate:.3g} frames a second; it must have {RATES[0]:g} to "
-            f"{RATES[1]:g}. Are the times in seconds?",
-            name,
-        )
+    _require_order(times, name, table.lines[first:])
     return FrameTimes(name, times, table.notes)
+
+
+def _require_order(times: Floats, name: str, lines: Sequence[int]) -> None:
+    """Makes sure that times rise by a film's steps.
+
+    Raises:
+        InputError: naming the line of the first one that does not.
+    """
+    far = np.abs(times) > LATEST
+    shortest, longest = INTERVALS
+    intervals = np.diff(times, prepend=times[0] - shortest)
+    slack = np.spacing(np.abs(times))
+    odd = (intervals < shortest - slack) | (intervals > longest + slack)
+    for index in np.flatnonzero(far | odd)[:1].tolist():
+        place, here = f"{name}:{lines[index]}", f"{times[index]:.10g} s"
+        if far[index]:
+            fault = f"{here} is farther from 0 than {LATEST:g} s"
+        elif intervals[index] <= 0.0:
+            fault = f"{here} does not come after {times[index - 1]:.10g} s, the time before"
+        else:
+            fault = (
+                f"{here} comes {intervals[index]:.4g} s after the time before; between two frames are "
+                f"{shortest:g} to {longest:g} s"
+            )
+        raise InputError(f"{place}: {fault}. Give the frames' times in order, in seconds.", place)
 
 
 def _place(table: Table) -> tuple[int, int]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -93,3 +94,10 @@ def test_a_track_too_short_for_its_iterations_is_refused(count: int) -> None:
 def test_ends_must_be_frames_in_order(ends: tuple[int, ...]) -> None:
     with pytest.raises(InputError, match="one after the other"):
         iteration_movements(stepping_track((0.01, 0.0), 2), ends, 0.01)
+
+
+def test_ends_in_a_gap_without_frames_are_refused() -> None:
+    track = stepping_track((0.012, 0.002), 3)
+    late = replace(track, times=np.append(track.times[:-1], track.times[-1] + 900.0))
+    with pytest.raises(InputError, match="the track has no frame for 900"):
+        find_iterations(late, 3)

@@ -41,7 +41,12 @@ def test_times_are_read_a_line_each_or_from_the_column_of_that_name(text: str) -
         ("frame,time\n0,0.1\n1\n", "t.csv, line 3: 0 numbers"),
         ("0,08\n0,16\n", "t.csv:1: no column is called time"),
         ("t,time\n0,1\n1,2\n", "t.csv:1: several columns are called time"),
-        ("0\n77\n154\n", "Are the times in seconds"),
+        ("0\n77\n154\n", "t.csv:2: 77 s comes 77 s after the time before"),
+        (
+            "0\n1e-9\n2e-9\n",
+            "t.csv:2: 1e-09 s comes 1e-09 s after the time before; between two frames are 0.001",
+        ),
+        ("0\n0.1\n0.2\n1000\n", "t.csv:4: 1000 s comes 999.8 s after"),
         ("0\n", "holds 1 times"),
         ("", "holds 0 times"),
     ],

@@ -158,7 +158,7 @@ def test_a_cancelled_search_has_no_gait() -> None:
     assert told[-1].stage.startswith("Solving")
 
 
-@pytest.mark.soak
+@pytest.mark.heavy
 def test_a_robot_with_six_legs_walks_too() -> None:
     result = solved((1, 4, 2, 5, 3, 6), robot="hexapod")
     assert result.status is SolveStatus.SOLVED

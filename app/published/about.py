@@ -56,7 +56,6 @@ def about_table(table: PublishedTable, *, has_reference: bool) -> list[str]:
 
 
 def _about(table: PublishedTable, has_reference: bool) -> Iterator[str]:
-    yield f"Printed figures: {table.source}."
     yield from _DEFINITIONS[table.kind]
     if table.kind is Kind.PAPER:
         yield "“Paper” is the paper's own simulation, in PyBullet."

@@ -7,6 +7,7 @@ import { recalled, remember } from "../lib/remembered.js";
 import { attempt, report } from "../lib/toasts.js";
 import { closeOverStage, drawerIsOpen, openDrawer } from "../shell/drawers.js";
 import { selectGait } from "../shell/gait_list.js";
+import { runIsOn } from "../state/store.js";
 import { openStep } from "../steps/steps.js";
 import { referenceField } from "./reference_field.js";
 import { tableList } from "./table_list.js";
@@ -127,6 +128,7 @@ export function mountPublished(store) {
       if (table !== chosen.table) return;
       content = found;
       show();
+      if (found?.state === "none" && !runIsOn(store.state.robot)) await publishedApi.compute(table);
     } catch (error) {
       report(error);
     }

@@ -27,6 +27,9 @@ const LACKS = {
   published: "No folder with the published data is named, or the folder has no motion of this row.",
 };
 
+const LEGEND =
+  "Paths from above, mm. Wide and pale: the plan. Thin: the simulation, at each waypoint's arrival.";
+
 /** The plot, as soon as the studio has drawn it; the reason where it cannot. */
 function plotPart(table, { id }, name) {
   const words = h("p", { class: "quiet", role: "status", text: "The studio is drawing the plot…" });
@@ -36,7 +39,8 @@ function plotPart(table, { id }, name) {
       const address = URL.createObjectURL(new Blob([drawn], { type: "image/svg+xml" }));
       const forget = () => URL.revokeObjectURL(address);
       const alt = `Paths of the feet of ${name}, seen from above`;
-      element.replaceChildren(h("img", { src: address, alt, on: { load: forget } }));
+      const caption = h("figcaption", { text: LEGEND });
+      element.replaceChildren(caption, h("img", { src: address, alt, on: { load: forget } }));
     },
     ({ message }) => setText(words, message),
   );

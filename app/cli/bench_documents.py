@@ -15,6 +15,7 @@ from app.bench.quoted_figures import FOLDER, Difference, Kind, Quotation, differ
 from app.cli.common.output import NOT_FIT, note, show
 from app.common.json import Json
 from app.common.own_command import own_command
+from app.published.reference import open_reference
 from core.errors import InputError
 
 ROOT = Path(footfall.__file__).resolve().parent
@@ -34,8 +35,8 @@ def run_documents(options: Namespace) -> int:
         InputError: the documents are not there, are malformed, or quote nothing of a named benchmark; or the
             folder of published data is not there.
     """
-    if options.reference is not None and not options.reference.is_dir():
-        raise InputError(f"{options.reference} is no folder; name that of the published data.", "--reference")
+    if options.reference is not None:
+        open_reference(options.reference)
     found = quotations(ROOT)
     chosen = [quotation for quotation in found if _is_run(quotation, options.names, options.reference)]
     for name in options.names:

@@ -24,7 +24,7 @@ from app.emulator.profiles import ProfileName
 from app.export.trajectory_files import finds_companion, read_waypoints
 from app.export.way_files import checked_way, read_way_file
 from app.gaits.verdict_views import approval_view, override_view, override_words, verdict_view
-from app.published.reference import Reference
+from app.published.reference import open_reference
 from app.store.gait_files import default_data_folder
 from core.checks.rules import check_plan, check_waypoints
 from core.errors import CheckError, InputError, RobotError
@@ -72,9 +72,7 @@ def run_serve(options: Namespace) -> int:
             "--token",
         )
     _require_device(options.robot)
-    reference = None if options.reference is None else options.reference.expanduser().absolute()
-    if reference is not None:
-        Reference(reference)
+    reference = None if options.reference is None else open_reference(options.reference).folder
     # The web server and the 3D scene take a second to load; the other commands do without them.
     from app.server.launch import ServeOptions, serve
 

@@ -1,12 +1,14 @@
 """Trajectory and waypoint files on disk."""
 
+import os
+import stat
 from pathlib import Path
 
-from app.store.named_file import file_path, is_plain, write_named
+from app.store.named_file import file_path, is_plain, open_file_number, write_named
 from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.motion.trajectory_npz import MotionFile, parse_npz
-from core.text.decoding import MOST_BYTES, text_of, without_mark
+from core.text.decoding import MOST_BYTES, require_size, text_of, without_mark
 from core.wire.trajectory_csv import (
     TrajectoryFile,
     format_companion,
@@ -30,13 +32,37 @@ def read_text(path: Path) -> str:
 
 
 def read_whole_text(path: Path) -> str:
-    """A text file's content to the last character, whatever ends its lines (see `read_text`)."""
+    """A text file's content to the last character, whatever ends its lines (see `read_text`).
+
+    A pipe is read where it is an open file of this process, such as /dev/stdin; any other might never answer.
+    """
+    return text_of(read_bytes(path, reads_open_files=True), str(path))
+
+
+def read_bytes(path: Path, *, reads_open_files: bool = False) -> bytes:
+    """The bytes of a plain file; links are followed.
+
+    Args:
+        path: the file.
+        reads_open_files: whether it may be an open file of this process, of any kind.
+
+    Raises:
+        InputError: it is absent, no plain file, not readable or too large.
+    """
     try:
-        with path.open("rb") as file:
+        is_open = reads_open_files and open_file_number(path) is not None
+        # Opened without O_NONBLOCK, a pipe would wait for somebody who writes into it.
+        flags = os.O_RDONLY | os.O_CLOEXEC | (0 if is_open else os.O_NONBLOCK)
+        with open(os.open(path, flags), "rb") as file:
+            state = os.fstat(file.fileno())
+            if not (is_open or stat.S_ISREG(state.st_mode)):
+                raise InputError(f"{path} is no plain file. Put a file in its place.", str(path))
+            require_size(state.st_size, str(path))
             content = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise InputError(f"{path} cannot be read: {error.strerror}.", str(path)) from error
-    return text_of(content, str(path))
+    require_size(len(content), str(path))
+    return content
 
 
 def companion_path(path: Path) -> Path:

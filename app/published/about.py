@@ -2,27 +2,28 @@
 
 from collections.abc import Iterator
 
-from app.published.columns import Who, has_data
+from app.published.columns import WITH_REFERENCE, Who, has_data
 from app.published.figures import SIMULATED, physics_of
+from app.published.own_gait import SMALLER_MARGINS
+from app.published.reference_folder import PublishedFolder
 from core.published.tables import Kind, Movement, PublishedTable
 
 _DEFINITIONS = {
     Kind.STANDING: (
         "An error is the mean distance of feet 1 to 3, over all waypoints, from where they would be if the "
         "robot stood still at the origin, 53 mm high. So the way that the robot goes counts as an error.",
-        "By this definition our gaits are worse, 3.0 to 6.8 mm against 2.2 to 4.3 mm, because they go "
-        "further than the published runs: of 10 mm, Walk 0 goes 12.1 mm in our physics and 2.8 mm in theirs. "
-        "“Feet from the plan” is the mean distance of all four feet from the motion that is planned.",
+        "By this definition our gaits are worse because they go further than the published runs: compare "
+        "“goes”. “Feet from the plan” is the mean distance of all four feet from the motion that is planned.",
     ),
     Kind.TRACKING: (
         "An error is the mean distance from the plan over all waypoints and the four feet, each waypoint at "
         "its arrival. The thesis calls it a mean square error; it is none.",
-        "The printed errors of 1.6 to 7.9 mm are those of PyBullet. In our physics the published motions "
-        "have 0.8 to 2.2 mm, and ours compare with these.",
+        "The printed errors are those of PyBullet. Ours compare with those of the published motions in our "
+        "physics, which come with the folder of the published data.",
     ),
     Kind.PAPER: (
         "An error is the mean distance from the plan over all waypoints, of the body and of each foot. The "
-        "paper's trajectories are not published.",
+        "folder of the published data does not hold the paper's trajectories.",
     ),
     Kind.WALKED: (
         "A distance is that of the largest excursions from the first frame towards +x and +y, and the angle "
@@ -30,8 +31,8 @@ _DEFINITIONS = {
     ),
     Kind.EXTENTS: (
         "A distance is √((largest x − smallest x)² + (largest y − smallest y)²) of each foot over the whole "
-        "track, mean over the four feet; angles are those of the largest excursions. The tracks of these "
-        "tables are not published.",
+        "track, mean over the four feet; angles are those of the largest excursions. The folder of the "
+        "published data does not hold the tracks of these tables.",
     ),
     Kind.PACE: (
         "The thesis timed the robot, and its speed is the measured distance of a step in that time. Ours is "
@@ -45,17 +46,17 @@ _PRINTED = {
 }
 
 
-def about_table(table: PublishedTable, *, has_reference: bool) -> list[str]:
+def about_table(table: PublishedTable, published: PublishedFolder) -> list[str]:
     """Sentences about a table.
 
     Args:
         table: which one.
-        has_reference: whether the published data is at hand.
+        published: the folder of the published data.
     """
-    return [*_about(table, has_reference)]
+    return [*_about(table, published)]
 
 
-def _about(table: PublishedTable, has_reference: bool) -> Iterator[str]:
+def _about(table: PublishedTable, published: PublishedFolder) -> Iterator[str]:
     yield from _DEFINITIONS[table.kind]
     if table.kind is Kind.PAPER:
         yield "“Paper” is the paper's own simulation, in PyBullet."
@@ -64,17 +65,21 @@ def _about(table: PublishedTable, has_reference: bool) -> Iterator[str]:
     yield from _ours(table)
     if table.kind in (Kind.WALKED, Kind.EXTENTS):
         yield from _real(table)
-    if has_reference:
+    if published.reference is not None:
         yield from _theirs(table)
-    elif any(has_data(table, who) for who in (Who.RUN, Who.TRACK, Who.RECORDED)):
-        yield "Name the folder of the published data for columns of the published motions, runs and tracks."
+    elif any(has_data(table, who) for who in WITH_REFERENCE):
+        yield f"Columns of the published motions, runs and tracks are not at hand. {published.remedy}"
 
 
 def _ours(table: PublishedTable) -> Iterator[str]:
     if all(row.gait.version is not None for row in table.rows):
         made = "made by hand from the same segments"
     else:
-        made = "of the same foot order and step, with the robot's own margin or the largest that has a motion"
+        *margins, last = (f"{margin * 1000:g}" for margin in SMALLER_MARGINS)
+        made = (
+            "of the same foot order and step, with the robot's own margin or the largest of "
+            f"{', '.join(margins)} and {last} mm that has a motion"
+        )
     if table.kind is Kind.PACE:
         yield f"“Ours” is our gait {made}."
         return

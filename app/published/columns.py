@@ -168,7 +168,7 @@ def _figure_column(figure: Figure, who: Who, origin: str) -> Column:
 
 
 def has_data(table: PublishedTable, who: Who) -> bool:
-    """Whether the published data holds what a column of a table is made of."""
+    """True if the published data may hold what a column of a table is made of."""
     if table.kind is Kind.EXTENTS or not any(who in figure.who for figure in FIGURES[table.kind]):
         return False
     manual = any(row.gait.version is not None for row in table.rows)
@@ -184,7 +184,7 @@ def _title(table: PublishedTable, who: Who) -> str:
 
 
 def _row_columns(table: PublishedTable) -> Iterator[Column]:
-    """What tells the rows apart."""
+    """Columns that tell the rows apart."""
     rows = table.rows
     if rows[0].label:
         yield Column("label", "Trajectory")
@@ -202,7 +202,7 @@ def _row_columns(table: PublishedTable) -> Iterator[Column]:
 
 
 def row_cells(row: PublishedRow) -> Json:
-    """What is known of a row without any computation: its gait, and the printed figures."""
+    """Cells of a row that need no computation: its gait, and the printed figures."""
     gait = row.gait
     order = None if gait.order is None else feet_of_roles(library()[gait.family].gait, gait.order)
     cells: Json = {

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from app.common.json import Json
 from app.published.figures import Tools
 from app.published.reference import Reference
+from app.published.reference_folder import PublishedFolder
 from app.published.rows import table_entries, table_view
 from core.errors import FootfallError
 from core.published.tables import PublishedTable
@@ -29,25 +30,17 @@ def computed_table(
         kept: what is computed already; gains the rest, which other tables may share.
         tell: told the share of rows that are done.
         tools: what solves and simulates.
-
-    Raises:
-        InputError: a published file cannot be read.
     """
     entries = table_entries(table, reference)
     failures: dict[str, str] = {}
-    for number, (row, wanted) in enumerate(entries.items()):
+    for number, row_entries in enumerate(entries.values()):
         tell(number / len(entries))
-        try:
-            for entry in wanted:
-                if entry.key not in kept:
-                    kept[entry.key] = entry.compute(tools)
-        except FootfallError as error:
-            failures[row] = error.sentence
-    view = table_view(table, reference, entries, kept)
-    rows = [_row(row, failures.get(row["id"])) for row in view["rows"]]
-    heads = {name: getattr(table, name) for name in ("id", "name", "title", "source")}
-    return heads | view | {"rows": rows}
-
-
-def _row(row: Json, failure: str | None) -> Json:
-    return row if failure is None else row | {"state": "failed", "sentence": failure}
+        for entry in row_entries:
+            if entry.key in kept or entry.key in failures:
+                continue
+            try:
+                kept[entry.key] = entry.compute(tools)
+            except FootfallError as error:
+                failures[entry.key] = error.sentence
+    view = table_view(table, PublishedFolder(reference=reference), entries, kept, failures)
+    return {name: getattr(table, name) for name in ("id", "name", "title", "source")} | view

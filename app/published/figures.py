@@ -1,4 +1,4 @@
-"""Figures of published rows as they are computed and kept: by whose they are, by definition, and by name."""
+"""Figures of published rows as they are computed and kept: by definition, and by name."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -58,23 +58,21 @@ _DEFINITIONS = {
 
 
 def figures_content(
-    figures: Mapping[str, Mapping[str, Mapping[str, float | None]]],
+    figures: Mapping[str, Mapping[str, float | None]],
     sentence: str = "",
-    ways: Mapping[str, Json] | None = None,
+    ways: Json | None = None,
     *,
     is_refused: bool = False,
 ) -> Json:
     """Computed figures as they are kept.
 
     Args:
-        figures: by whose they are, by definition, and by name.
+        figures: by definition, and by name.
         sentence: a remark, or why there are none.
-        ways: for the plot, by whose they are.
+        ways: for the plot; None where there are none.
         is_refused: whether there is no such gait, so that nothing is left to compute.
     """
-    content: Json = finite(
-        {"figures": figures, "sentence": sentence, "ways": ways or {}, "is_refused": is_refused}
-    )
+    content: Json = finite({"figures": figures, "sentence": sentence, "ways": ways, "is_refused": is_refused})
     return content
 
 

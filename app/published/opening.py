@@ -4,12 +4,12 @@ from dataclasses import replace
 from enum import StrEnum
 
 from app.export.import_gait import read_gait
-from app.export.trajectory_files import read_text
 from app.plans.make_plan import Solve
 from app.published.own_gait import own_gait
 from app.published.problems import walker
-from app.published.reference import Reference
+from app.published.reference import Reference, read_published
 from app.published.reference_figures import recorded_path
+from app.published.reference_folder import PublishedFolder
 from core.errors import CheckError, NotFoundError
 from core.gait.gait import Gait
 from core.gait.recording import RecordingFit, WithinStroke
@@ -34,7 +34,7 @@ def sources_of(table: PublishedTable, row: PublishedRow, reference: Reference | 
 
 
 def opened_gait(
-    table: PublishedTable, row: PublishedRow, source: Source, reference: Reference | None, solve: Solve
+    table: PublishedTable, row: PublishedRow, source: Source, published: PublishedFolder, solve: Solve
 ) -> Gait:
     """The document of a row.
 
@@ -42,7 +42,7 @@ def opened_gait(
         table: of the row.
         row: which one.
         source: ours, or the published motion.
-        reference: the published data, where it is at hand.
+        published: the folder of the published data.
         solve: asks the live tier for the margin that our gait can have.
 
     Raises:
@@ -55,13 +55,13 @@ def opened_gait(
             return own_gait(gait, solve).gait
         except CheckError:  # its page says why it has no motion
             return gait
+    reference = published.reference
     path = None if reference is None else recorded_path(table, row, reference)
     if path is None:
+        reason = published.remedy if reference is None else f"It is not in {published.name}."
         raise NotFoundError(
-            f"The published motion of {row_title(row)} is not at hand. Name the folder of the published data "
-            "that holds it, or open ours.",
-            "source",
+            f"The published motion of {row_title(row)} is not at hand. {reason} Or open ours.", "source"
         )
     of_file = replace(row, gait=replace(row.gait, iterations=row.gait.motion_iterations))
     name = f"{row_title(of_file)}, published ({table.name})"
-    return read_gait(read_text(path), path.name, name=name, robot=walker().name, fit=CLIPPED).gait
+    return read_gait(read_published(path), path.name, name=name, robot=walker().name, fit=CLIPPED).gait

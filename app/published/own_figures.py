@@ -1,7 +1,6 @@
 """Figures of our own gait of a published row."""
 
 from app.common.json import Json
-from app.published.columns import Who
 from app.published.figures import (
     PACE,
     SIMULATED,
@@ -39,22 +38,22 @@ def own_figures(table: PublishedTable, row: PublishedRow, tools: Tools) -> Json:
         return figures_content({}, f"Our gait cannot be made. {refusal.sentence}", is_refused=True)
     margin = {"margin_mm": None if own.margin is None else own.margin * 1000}
     if table.kind is Kind.PACE:
-        return figures_content({Who.OURS: {PACE: _pace(own) | margin}}, own.sentence)
+        return figures_content({PACE: _pace(own) | margin}, own.sentence)
     if table.kind in SIMULATED:
         problem = own_problem(_motion(own), physics_of(table.kind))
     else:
         problem = simulation_problem(own.plan, physics_of(table.kind))
     motion = tools.simulate(problem)
-    walk = walked_motion(problem, motion, 0.0)
+    walk = walked_motion(problem, motion)
     sentence = joined(own.sentence, fall_sentence("Our gait", walk))
     if table.kind in SIMULATED:
-        figures, ways = tracking_figures(walk), {Who.OURS.value: walk_ways(walk)}
+        figures, ways = tracking_figures(walk), walk_ways(walk)
     else:
         iterations = row.gait.iterations
         track = track_of_motion(motion, own.gait.orientation)
-        figures, ways = movement_figures([track], row.gait.step * iterations, iterations), {}
+        figures, ways = movement_figures([track], row.gait.step * iterations, iterations), None
     ours = {definition: values | margin for definition, values in figures.items()}
-    return figures_content({Who.OURS: ours}, sentence, ways)
+    return figures_content(ours, sentence, ways)
 
 
 def _motion(own: OwnGait) -> Trajectory:

@@ -1,6 +1,6 @@
 """The x–y plots of thesis Figures 4.2 to 4.8 beside ours, a row of panels in one drawing."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -26,29 +26,31 @@ ROOM = 0.006
 """Space around the farthest way, m."""
 ORDER = (Who.RUN, Who.RECORDED, Who.OURS)
 """Panels from left to right, as far as they are computed."""
+_CAPTIONS = {"feet_mm": "feet {:.2f} mm", "body_mm": "body {:.2f} mm", "lean_deg": "leans {:.1f}°"}
 CAPTION, SPACE = 22.0, 10.0
 """Height of a caption, and space between panels, px."""
 
 
 def row_plot(
-    table: PublishedTable, row: PublishedRow, contents: Sequence[Json], colours: tuple[str, ...]
+    table: PublishedTable, row: PublishedRow, contents: Mapping[Who, Json], colours: tuple[str, ...]
 ) -> Drawing | None:
     """The panels of a row; None where no way is computed.
 
     Args:
         table: of the row.
         row: which one.
-        contents: what is kept of it (`app.published.figures`).
+        contents: what is kept of it (`app.published.figures`), by its origin.
         colours: a colour a foot.
     """
-    found = {who: content for content in contents for who in map(Who, content["ways"])}
-    ways = {who: _ways(f"{row_title(row)}, {TITLES[who]}", found[who]["ways"][who]) for who in found}
-    if not ways:
+    shown = {who: contents[who] for who in ORDER if who in contents and contents[who]["ways"] is not None}
+    if not shown:
         return None
-    reach = max(one.reach for one in ways.values()) + ROOM
-    panels = [way_plot(ways[who], colours, reach) for who in ORDER if who in ways]
-    figures = (found[who]["figures"][who][definition_of(table, row)] for who in ORDER if who in ways)
-    return _side_by_side(panels, [_caption(one) for one in figures], _title(row))
+    ways = [_ways(f"{row_title(row)}, {TITLES[who]}", content["ways"]) for who, content in shown.items()]
+    reach = max(one.reach for one in ways) + ROOM
+    panels = [way_plot(one, colours, reach) for one in ways]
+    definition = definition_of(table, row)
+    captions = [_caption(content["figures"].get(definition, {})) for content in shown.values()]
+    return _side_by_side(panels, captions, _title(row))
 
 
 def _ways(title: str, content: Json) -> Ways:
@@ -62,9 +64,9 @@ def _title(row: PublishedRow) -> str:
 
 
 def _caption(figures: Json) -> str:
-    body = figures.get("body_mm")
-    gaps = f"feet {figures['feet_mm']:.2f} mm" + ("" if body is None else f", body {body:.2f} mm")
-    return f"{gaps}; leans {figures['lean_deg']:.1f}°"
+    """Figures under a panel; one that is not known is left out."""
+    known = {name: value for name, value in figures.items() if value is not None}
+    return "; ".join(form.format(known[name]) for name, form in _CAPTIONS.items() if name in known)
 
 
 def _side_by_side(panels: Sequence[Drawing], captions: Sequence[str], title: str) -> Drawing:

@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from app.export.trajectory_files import read_text
 from app.learning.published_trials import problem_within_range
-from app.published.reference import Reference
+from app.published.reference import Reference, read_published
 from app.simulation.problem import way_problem
+from core.errors import InputError
 from core.library.library import library
 from core.motion.contact_timeline import timeline_from_order
 from core.motion.trajectory import Trajectory
@@ -40,12 +40,20 @@ def published_problem(
         iterations: of the trajectory itself; 3 for the motions of T Table 6.1.
 
     Raises:
-        InputError: the file is missing or is no trajectory.
+        InputError: the file is missing or is no such trajectory.
+        UnreachableError: a foot cannot go where the file wants it.
     """
     model = walker()
     path = reference.trajectory_path(gait, step, iterations)
-    motion = parse_trajectory_csv(read_text(path), path.name).trajectory
+    motion = parse_trajectory_csv(read_published(path), str(path)).trajectory
     order = library()[gait].gait.order
     timeline = timeline_from_order(model.leg_count, order, closing_knots=0, iterations=iterations)
+    if motion.contact.shape != timeline.stance.T.shape:
+        count, legs = motion.contact.shape
+        raise InputError(
+            f"{path} has {count} columns and {legs} feet; {timeline.stance.shape[1]} columns and "
+            f"{model.leg_count} feet are expected. Take the file from the published data.",
+            str(path),
+        )
     motion = replace(motion, contact=timeline.stance.T)
     return problem_within_range(model, motion, physics)

@@ -5,11 +5,13 @@ from pathlib import Path
 
 import numpy as np
 
-from app.export.trajectory_files import read_text
-from core.arrays import Floats
+from app.export.trajectory_files import read_bytes
+from core.arrays import FARTHEST, Floats
 from core.errors import InputError
 from core.physics.metrics import tilts
 from core.robot.model import RobotModel
+from core.text.decoding import text_of, without_mark
+from core.text.numbers import shortened
 from core.text.tables import read_table
 
 MANUAL_HEIGHT = 0.053
@@ -24,6 +26,10 @@ _FOLDERS = ("simulation_manual", "simulation_optimised", "trajectories")
 _THREE = "e"
 """Name of the size of a trajectory of three iterations."""
 _STEPS = {0.010: "a", 0.015: "b", 0.020: "c", 0.025: "d"}
+_POSITIONS = 15
+"""Rows of body and four feet, xyz."""
+_RUN_ROWS, _TRAJECTORY_ROWS = (1 + _POSITIONS,), (_POSITIONS, 2 * _POSITIONS)
+"""Rows that a file may have: the time and positions, or positions with or without velocities."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,14 +41,12 @@ class PublishedRun:
         feet: (n, legs, 3) simulated.
         wanted_body: (n, 3).
         wanted_feet: (n, legs, 3).
-        printed: what the published file of errors says, as it stands there.
     """
 
     body: Floats
     feet: Floats
     wanted_body: Floats
     wanted_feet: Floats
-    printed: tuple[float, ...]
 
     @property
     def body_error(self) -> float:
@@ -76,13 +80,18 @@ class Reference:
         folder: holds `simulation_manual`, `simulation_optimised` and `trajectories`.
 
     Raises:
-        InputError: it does not hold them.
+        InputError: it is not there, cannot be read, or does not hold them.
     """
 
     folder: Path
 
     def __post_init__(self) -> None:
-        missing = [name for name in _FOLDERS if not (self.folder / name).is_dir()]
+        try:
+            if not self.folder.is_dir():
+                raise InputError(f"There is no folder {self.folder}. Correct its name.", "reference")
+            missing = [name for name in _FOLDERS if not (self.folder / name).is_dir()]
+        except (OSError, ValueError) as error:
+            raise _unreadable(self.folder, error) from error
         if missing:
             raise InputError(
                 f"{self.folder} holds no {missing[0]}; name the published data's folder, which holds "
@@ -95,86 +104,123 @@ class Reference:
         size = _THREE if iterations > 1 else _STEPS[step]
         return self.folder / "trajectories" / "direction1" / f"{_OPTIMISED[gait][1]}_{size}.csv"
 
-    def run_paths(self, gait: str, step: float, version: int | None) -> list[Path]:
-        """Files of a gait's simulated run, and of its plan where it was made by hand."""
+    def run_paths(self, gait: str, step: float, version: int | None) -> tuple[Path, Path]:
+        """Files of a gait's simulated run, and of its plan."""
         if version is None:
-            return [self._optimised_path(gait, step)]
-        name = f"traj{_BY_HAND[gait]}{version}_o1.csv"
-        return [self.folder / "simulation_manual" / part / name for part in ("simulated", "planned")]
-
-    def run(self, gait: str, step: float, version: int | None, model: RobotModel) -> PublishedRun | None:
-        """The simulated run of a gait; None where it was not published.
-
-        Raises:
-            InputError: a file is missing or is no such table.
-        """
-        if version is None:
-            return self.optimised_run(gait, step, model)
-        return self.manual_run(gait, version, model)
-
-    def _optimised_path(self, gait: str, step: float) -> Path:
-        name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_o1.csv"
-        return self.folder / "simulation_optimised" / "simulated" / name
+            name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_o1.csv"
+            simulated = self.folder / "simulation_optimised" / "simulated" / name
+            return simulated, self.trajectory_path(gait, step)
+        name, root = f"traj{_BY_HAND[gait]}{version}_o1.csv", self.folder / "simulation_manual"
+        return root / "simulated" / name, root / "planned" / name
 
     def track_paths(self, gait: str, step: float) -> tuple[Path, ...]:
         """Files of the foot tracks of an optimised gait's trials, three iterations each."""
-        name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_t*_o1_3x.csv"
+        name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_t[0-9]_o1_3x.csv"
         return tuple(sorted((self.folder / "robot_trials" / "tracks_cm").glob(name)))
 
-    def _table(self, path: Path, header: int = 0) -> Floats:
-        return _numbers(path, read_text(path), header)
+    def run(self, gait: str, step: float, version: int | None, model: RobotModel) -> PublishedRun:
+        """The simulated run of a gait.
 
-    def optimised_run(self, gait: str, step: float, model: RobotModel) -> PublishedRun:
-        """Simulated run of an optimised gait; its body is the actuator plane, the plan's the mass centre.
+        Table 4.2 wants body and feet at the plan's. The body of the run is the actuator plane, the plan's the
+        mass centre. Table 4.1 wants each foot at its place in the robot's frame as though the robot stood
+        still at the origin, 53 mm high: the distance that the robot goes counts as error.
 
         Args:
-            gait: name of a gait of the library.
-            step: m.
-            model: for the height of the centre of mass.
+            gait: name of a gait of the library, or of a family made by hand.
+            step: of an optimised gait, m.
+            version: of a gait made by hand; None for an optimised one.
+            model: for the height of the centre of mass, and the modules' centres.
 
         Raises:
             InputError: a file is missing or is no such table.
         """
-        name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_o1"
-        body, feet = _positions(self._table(self._optimised_path(gait, step)), 1)
-        wanted = _positions(self._table(self.trajectory_path(gait, step), header=1), 0)
-        printed = self._table(self.folder / "simulation_optimised" / "errors" / f"{name}_mse.csv")[0]
-        return PublishedRun(body + [0.0, 0.0, model.com_height], feet, *wanted, tuple(printed / 100))
-
-    def manual_run(self, family: str, version: int, model: RobotModel) -> PublishedRun | None:
-        """Simulated run of a gait made by hand, or None where it was not published.
-
-        Table 4.1 wants each foot at its place in the robot's frame as though the robot stood still at the
-        origin, 53 mm high: the way that the robot goes counts as error.
-
-        Args:
-            family: name of the gait.
-            version: 0, 1 or 2.
-            model: for the modules' centres.
-
-        Raises:
-            InputError: a file is no such table.
-        """
-        name, root = f"traj{_BY_HAND[family]}{version}_o1", self.folder / "simulation_manual"
-        if not (root / "simulated" / f"{name}.csv").exists():
-            return None
-        body, feet = _positions(self._table(root / "simulated" / f"{name}.csv"), 1)
-        _, planned = _positions(self._table(root / "planned" / f"{name}.csv"), 1)
-        still = np.array([0.0, 0.0, MANUAL_HEIGHT])
-        printed = self._table(root / "errors" / f"{name}_mse.csv")[0]
-        wanted_feet = planned + model.module_centres_robot + still
-        return PublishedRun(body, feet, np.tile(still, (len(body), 1)), wanted_feet, tuple(printed / 1000))
+        path, planned_path = self.run_paths(gait, step, version)
+        body, feet = _positions(path, _RUN_ROWS)
+        if version is None:
+            wanted_body, wanted_feet = _positions(planned_path, _TRAJECTORY_ROWS, header=1)
+            body = body + [0.0, 0.0, model.com_height]
+        else:
+            still = np.array([0.0, 0.0, MANUAL_HEIGHT])
+            planned_body, planned = _positions(planned_path, _RUN_ROWS)
+            wanted_body = np.tile(still, (len(planned_body), 1))
+            wanted_feet = planned + model.module_centres_robot + still
+        if len(body) != len(wanted_body):
+            raise InputError(
+                f"{path} has {len(body)} columns, and its plan {planned_path.name} has {len(wanted_body)}; "
+                "they must be of one run. Take both files from the published data.",
+                str(path),
+            )
+        return PublishedRun(body, feet, wanted_body, wanted_feet)
 
 
-def _positions(table: Floats, first: int) -> tuple[Floats, Floats]:
-    """Body (n, 3) and feet (n, 4, 3) of a table whose rows are body and feet xyz from a row on."""
-    rows = table[first : first + 15].T
-    return rows[:, :3], rows[:, 3:].reshape(len(rows), 4, 3)
+def open_reference(folder: str | Path) -> Reference:
+    """The published data in a folder that a person names; `~` is the home folder.
+
+    Raises:
+        InputError: the folder is not there, cannot be read, or lacks the data.
+    """
+    try:
+        path = Path(folder).expanduser().absolute()
+        str(path).encode()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise _unreadable(folder, error) from error
+    return Reference(path)
 
 
-def _numbers(path: Path, text: str, header: int = 0) -> Floats:
-    """Numbers of a CSV; lines that begin with # are left out."""
-    table = read_table(text, str(path))
+def is_missing(path: Path) -> bool:
+    """True if nothing stands at a path; false of a file that cannot be read."""
+    try:
+        path.lstat()
+    except (FileNotFoundError, NotADirectoryError):
+        return True
+    except OSError:
+        return False
+    return False
+
+
+def read_published(path: Path) -> str:
+    """The text of a published file.
+
+    Raises:
+        InputError: it is missing, no plain file, not readable, too large or no text in UTF-8.
+    """
+    return without_mark(text_of(read_bytes(path), str(path)))
+
+
+def _unreadable(folder: str | Path, error: Exception) -> InputError:
+    reason = "its name is no text in UTF-8" if isinstance(error, UnicodeError) else str(error)
+    name = shortened(str(folder).encode("utf-8", "backslashreplace").decode())
+    if isinstance(error, OSError):
+        reason = error.strerror or reason
+    return InputError(
+        f"The folder {name} cannot be read: {reason}. Correct its name or its rights.", "reference"
+    )
+
+
+def _positions(path: Path, counts: tuple[int, ...], header: int = 0) -> tuple[Floats, Floats]:
+    """Body (n, 3) and feet (n, 4, 3) of a file, m.
+
+    Args:
+        path: of the file; lines that begin with # are left out.
+        counts: how many rows it may have; positions are 15 of them, the last where there is an odd one more.
+        header: lines before the numbers.
+
+    Raises:
+        InputError: it is missing, or is no such table.
+    """
+    table = read_table(read_published(path), str(path))
     rows = [index for index, row in enumerate(table.rows) if index >= header and not row[0].startswith("#")]
     kept = replace(table, rows=[table.rows[i] for i in rows], lines=[table.lines[i] for i in rows])
-    return kept.numbers(0)
+    numbers = kept.numbers(0)
+    count, width = numbers.shape
+    if count not in counts or width < 2:
+        raise InputError(
+            f"{path} has {count} rows and {width} columns of numbers; "
+            f"{' or '.join(map(str, counts))} rows with a column a waypoint are expected. Take the file from "
+            "the published data.",
+            str(path),
+        )
+    if np.abs(numbers).max() > FARTHEST:
+        raise InputError(f"{path} has a number beyond {FARTHEST:g}, which is no position in m.", str(path))
+    positions = numbers[len(numbers) % _POSITIONS :][:_POSITIONS].T
+    return positions[:, :3], positions[:, 3:].reshape(len(positions), 4, 3)

@@ -2,17 +2,43 @@
 
 import json
 import threading
+from dataclasses import dataclass
 from pathlib import Path
 
 from app.common.json import Json
-from app.published.reference import Reference
+from app.published.reference import Reference, open_reference
 from app.store.plain_file import read_plain_file, write_atomically
+from app.store.tables.shapes import ShapeError, text
 from core.errors import FootfallError, InputError
 from core.text.documents import json_content
 
 REFERENCE = "reference.json"
 """The file of the data folder that remembers it."""
 _MOST_BYTES = 100_000
+
+
+@dataclass(frozen=True)
+class PublishedFolder:
+    """The folder as it is now.
+
+    Args:
+        name: as a person named it; empty for none.
+        reference: the published data; None where no folder is named, or it cannot be read.
+        sentence: why it cannot be read; else empty.
+    """
+
+    name: str = ""
+    reference: Reference | None = None
+    sentence: str = ""
+
+    @property
+    def remedy(self) -> str:
+        """A sentence that says how the published data comes to hand."""
+        return self.sentence or "Name the folder of the published data."
+
+    def content(self) -> Json:
+        """Folder, and why it cannot be read, as JSON content."""
+        return {"folder": self.name, "sentence": self.sentence}
 
 
 class ReferenceFolder:
@@ -39,42 +65,26 @@ class ReferenceFolder:
             write_atomically(self._memory, json.dumps({"folder": path}))
             self._folder, self._sentence = path, ""
 
-    def reference(self) -> Reference | None:
-        """The published data; None where no folder is named, or it cannot be read now."""
-        with self._lock:
-            folder = self._folder
-        try:
-            return _reference(folder) if folder else None
-        except InputError:
-            return None
-
-    def content(self) -> Json:
-        """Folder, and why it cannot be read, as JSON content."""
+    def read(self) -> PublishedFolder:
+        """The folder as it is now."""
         with self._lock:
             folder, sentence = self._folder, self._sentence
         try:
-            if folder:
-                _reference(folder)
+            return PublishedFolder(folder, _reference(folder) if folder else None, sentence)
         except InputError as error:
-            sentence = error.sentence
-        return {"folder": folder, "sentence": sentence}
+            return PublishedFolder(folder, None, error.sentence)
 
     def _recall(self) -> tuple[str, str]:
         try:
-            folder = json_content(read_plain_file(self._memory, _MOST_BYTES), "the file")["folder"]
-            if not isinstance(folder, str):
-                raise InputError("its folder is no text", self._memory.name)
+            content = json_content(read_plain_file(self._memory, _MOST_BYTES), "the file")
+            return text(content["folder"], "folder"), ""
         except FileNotFoundError:
             return "", ""
-        except (FootfallError, KeyError, TypeError) as error:
+        except (FootfallError, ShapeError, KeyError, TypeError) as error:
             return "", f"{self._memory.name} in the data folder names no folder ({error}). Name it again."
-        return folder, ""
 
 
 def _reference(folder: str) -> Reference:
-    path = Path(folder).expanduser()
-    if not path.is_absolute():
+    if not folder.startswith(("/", "~")):
         raise InputError(f"{folder} is no full path. Write the folder's whole path.", "folder")
-    if not path.is_dir():
-        raise InputError(f"There is no folder {folder}. Correct its name.", "folder")
-    return Reference(path)
+    return open_reference(folder)

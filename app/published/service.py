@@ -14,9 +14,8 @@ from app.published.figures import Tools
 from app.published.opening import Source, opened_gait
 from app.published.plots import row_plot
 from app.published.problems import walker
-from app.published.reference import Reference
 from app.published.reference_folder import ReferenceFolder
-from app.published.rows import Entries, Kept, is_row_done, table_entries, table_view
+from app.published.rows import Entries, Kept, has_row_failed, is_row_done, table_entries, table_view
 from app.simulation.service import SimulationHandle, SimulationTier
 from app.store.tables.published_store import PublishedStore
 from core.errors import FootfallError, NotFoundError, SimulationCancelledError, StorageError
@@ -36,9 +35,9 @@ class _Work:
     Args:
         entries: of its rows, as they were when it was asked for.
         row: which is computed now; empty for none.
-        state: `running`, `cancelled`, `failed` or `done`.
+        state: `running`, `cancelled`, `failed` or `done`; `none` before it was asked for.
         sentence: why it failed.
-        failures: sentences of rows that failed, by row.
+        failures: sentences of computations that failed, by their key.
     """
 
     entries: Entries
@@ -46,6 +45,10 @@ class _Work:
     state: str = "running"
     sentence: str = ""
     failures: dict[str, str] = field(default_factory=dict)
+
+
+_NONE = _Work({}, state="none")
+"""Of a table whose figures nobody asked for."""
 
 
 class PublishedService:
@@ -80,19 +83,20 @@ class PublishedService:
         self._is_closed = False
         self._thread: threading.Thread | None = None
 
-    @property
-    def reference(self) -> Reference | None:
-        """The published data; None where no folder is named, or it cannot be read now."""
-        return self._folder.reference()
-
     def name_folder(self, folder: str) -> None:
         """Names the folder of the published data; an empty name forgets it.
+
+        What is on ends, since it is computed from the folder before; what it has done stays.
 
         Raises:
             InputError: it is not there, or lacks the data.
             StorageError: it cannot be remembered.
         """
-        self._folder.name(folder)
+        with self._lock:
+            self._folder.name(folder)
+            for work in self._works.values():
+                self._end(work)
+            self._works = {}
         for table in published_tables():
             self._tell(table)
 
@@ -101,17 +105,17 @@ class PublishedService:
         with self._lock:
             self._is_closed = True
             thread = self._thread
-        for table in published_tables():
-            self._end(table)
+            for work in self._works.values():
+                self._end(work)
         if thread is not None:
             thread.join()
 
     def overview(self) -> Json:
         """Every table without its rows, and the folder of the published data."""
-        kept, reference = self._kept(), self.reference
+        kept, published = self._kept(), self._folder.read()
         tables = published_tables().values()
-        lines = [self._line(table, table_entries(table, reference), kept) for table in tables]
-        return {"reference": self._folder.content(), "tables": lines}
+        lines = [self._line(table, table_entries(table, published.reference), kept) for table in tables]
+        return {"reference": published.content(), "tables": lines}
 
     def line(self, table_id: str) -> Json:
         """A table without its rows.
@@ -120,7 +124,7 @@ class PublishedService:
             NotFoundError: there is none of this id.
         """
         table = published_table(table_id)
-        return self._line(table, table_entries(table, self.reference), self._kept())
+        return self._line(table, table_entries(table, self._folder.read().reference), self._kept())
 
     def view(self, table_id: str) -> Json:
         """A table with sentences about it, columns and rows.
@@ -128,11 +132,16 @@ class PublishedService:
         Raises:
             NotFoundError: there is none of this id.
         """
-        table, reference, kept = published_table(table_id), self.reference, self._kept()
-        entries = table_entries(table, reference)
-        view = table_view(table, reference, entries, kept)
-        rows = [row | self._row_state(table_id, row) for row in view["rows"]]
-        return self._line(table, entries, kept) | view | {"rows": rows}
+        table, published, kept = published_table(table_id), self._folder.read(), self._kept()
+        entries = table_entries(table, published.reference)
+        line = self._line(table, entries, kept)
+        with self._lock:
+            work = self._works.get(table_id, _NONE)
+            failures = dict(work.failures)
+            row = work.row if work.state == "running" else None
+        view = table_view(table, published, entries, kept, failures)
+        rows = view["rows"] if row is None else [_begun(one, row) for one in view["rows"]]
+        return line | view | {"rows": rows}
 
     def plot(self, table_id: str, row_id: str) -> str:
         """The x–y plot of a row, SVG.
@@ -143,8 +152,8 @@ class PublishedService:
         table = published_table(table_id)
         row = table.row(row_id)
         kept = self._kept()
-        entries = entries_of(table, row, self.reference)
-        contents = [kept[entry.key] for entry in entries if entry.key in kept]
+        entries = entries_of(table, row, self._folder.read().reference)
+        contents = {entry.who: kept[entry.key] for entry in entries if entry.key in kept}
         drawing = row_plot(table, row, contents, walker().colours)
         if drawing is None:
             raise NotFoundError(f"There is no plot of {row_title(row)}; compute {table.name}.", "row")
@@ -158,7 +167,7 @@ class PublishedService:
             InputError: the file of the published motion cannot be read.
         """
         table = published_table(table_id)
-        return opened_gait(table, table.row(row_id), source, self.reference, self._tools.solve)
+        return opened_gait(table, table.row(row_id), source, self._folder.read(), self._tools.solve)
 
     def compute(self, table_id: str) -> Json:
         """Begins to compute what is missing of a table; where nothing is, or it is on, nothing begins.
@@ -170,9 +179,9 @@ class PublishedService:
             NotFoundError: there is none of this id.
         """
         table = published_table(table_id)
-        entries = table_entries(table, self.reference)
         kept = self._kept()
         with self._lock:
+            entries = table_entries(table, self._folder.read().reference)
             work = self._works.get(table_id)
             is_on = work is not None and work.state == "running"
             is_done = all(is_row_done(one, kept) for one in entries.values())
@@ -190,46 +199,32 @@ class PublishedService:
             NotFoundError: there is none of this id.
         """
         published_table(table_id)
-        self._end(table_id)
+        with self._lock:
+            if table_id in self._works:
+                self._end(self._works[table_id])
         self._tell(table_id)
         return self.line(table_id)
 
-    def _end(self, table_id: str) -> None:
-        with self._lock:
-            work = self._works.get(table_id)
-            if work is None or work.state != "running":
-                return
+    def _end(self, work: _Work) -> None:
+        """Ends a computation if it is on; the lock is held."""
+        if work.state == "running":
             work.state = "cancelled"
             if work.row and self._handle is not None:
                 self._handle.cancel()
 
     def _line(self, table: PublishedTable, entries: Entries, kept: Kept) -> Json:
         with self._lock:
-            work = self._works.get(table.id)
-            state, sentence, failures = (
-                ("none", "", set()) if work is None else (work.state, work.sentence, set(work.failures))
-            )
-        done = {row for row, one in entries.items() if is_row_done(one, kept)}
-        if len(done) == len(entries):
+            work = self._works.get(table.id, _NONE)
+            state, sentence, failures = work.state, work.sentence, dict(work.failures)
+        done = sum(is_row_done(one, kept) for one in entries.values())
+        failed = sum(has_row_failed(one, kept, failures) for one in entries.values())
+        if done == len(entries):
             state, sentence = "done", ""
         elif state == "done":
-            state = "failed" if failures else "none"
-            sentence = f"{len(failures)} rows were not computed; they say why." if failures else ""
+            state = "failed" if failed else "none"
+            sentence = f"{failed} rows lack figures; they say why." if failed else ""
         heads = {name: getattr(table, name) for name in ("id", "name", "title", "source")}
-        count = len(done | failures)
-        return heads | {"state": state, "done": count, "total": len(entries), "sentence": sentence}
-
-    def _row_state(self, table_id: str, row: Json) -> Json:
-        """State and sentence of a row whose figures are not all there."""
-        with self._lock:
-            work = self._works.get(table_id)
-            if work is None or row["state"] != "none":
-                return {}
-            if row["id"] in work.failures:
-                return {"state": "failed", "sentence": work.failures[row["id"]]}
-            if work.state != "running":
-                return {}
-            return {"state": "running" if work.row == row["id"] else "waiting"}
+        return heads | {"state": state, "done": done + failed, "total": len(entries), "sentence": sentence}
 
     def _tell(self, table_id: str) -> None:
         self._publish({"type": "published", "table": table_id})
@@ -267,18 +262,20 @@ class PublishedService:
                     return
                 work.row = row
             self._tell(table_id)
-            try:
-                for entry in entries:
-                    self._keep(entry)
-            except SimulationCancelledError:
-                with self._lock:
-                    work.state = "cancelled"
-                return
-            except StorageError:
-                raise
-            except FootfallError as error:
-                with self._lock:
-                    work.failures[row] = error.sentence
+            for entry in entries:
+                if work.state != "running":
+                    return
+                try:
+                    self._keep(entry, work)
+                except SimulationCancelledError:
+                    with self._lock:
+                        work.state = "cancelled"
+                    return
+                except StorageError:
+                    raise
+                except FootfallError as error:
+                    with self._lock:
+                        work.failures[entry.key] = error.sentence
 
     def _kept(self) -> Kept:
         """What is computed by now; read from the store once."""
@@ -287,8 +284,8 @@ class PublishedService:
                 self._contents, self._is_read = self._store.all(), True
             return self._contents
 
-    def _keep(self, entry: Entry) -> None:
-        if entry.key not in self._kept():
+    def _keep(self, entry: Entry, work: _Work) -> None:
+        if entry.key not in self._kept() and entry.key not in work.failures:
             content = entry.compute(self._tools)
             self._store.put(entry.key, time.time(), content)
             with self._lock:
@@ -311,3 +308,15 @@ class PublishedService:
         finally:
             with self._lock:
                 self._handle = None
+
+
+def _begun(row: Json, present: str) -> Json:
+    """A row of a table that is computed.
+
+    Args:
+        row: as it is known.
+        present: id of the row that is computed now; empty for none.
+    """
+    if row["id"] == present and row["state"] != "done":
+        return row | {"state": "running"}
+    return row | {"state": "waiting"} if row["state"] == "none" else row

@@ -16,7 +16,7 @@ from core.trials.movement import Movement, foot_movements, mean_movement
 from core.vision.track import FootTrack
 
 PLATFORM_TURN = {Orientation.FB: -math.pi / 4, Orientation.FBS: 0.0}
-"""How the robot stood turned on the platform in the published trials (T 5.1), rad."""
+"""Turn of the robot on the platform in the published trials (T 5.1), rad."""
 
 
 def track_of_motion(motion: SimulatedMotion, orientation: Orientation, laps: int = 1) -> FootTrack:

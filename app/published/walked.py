@@ -23,7 +23,6 @@ class Walked:
         body: (reached, 3) at each waypoint's arrival, m.
         feet: (reached, legs, 3) m.
         robot_seconds: from first to last arrival.
-        processor_seconds: computing time of one core, whatever else the machine does.
     """
 
     problem: SimulationProblem
@@ -31,7 +30,6 @@ class Walked:
     body: Floats
     feet: Floats
     robot_seconds: float
-    processor_seconds: float
 
     @property
     def longest_slide(self) -> float:
@@ -55,16 +53,15 @@ class Walked:
         return float(gaps[:MANUAL_FEET].mean())
 
 
-def walked_motion(problem: SimulationProblem, motion: SimulatedMotion, processor_seconds: float) -> Walked:
+def walked_motion(problem: SimulationProblem, motion: SimulatedMotion) -> Walked:
     """A simulated walk of its states.
 
     Args:
         problem: what was asked.
         motion: what came of it.
-        processor_seconds: computing time of one core.
     """
     figures = report(problem, motion)
     reached = motion.arrivals[: problem.waypoints.count]
     whole = float(motion.times[reached[-1]] - motion.times[reached[0]])
     body, feet = motion.body_world[reached], motion.feet_world[reached]
-    return Walked(problem, figures, body, feet, whole, processor_seconds)
+    return Walked(problem, figures, body, feet, whole)

@@ -10,7 +10,8 @@ import numpy as np
 
 from app.common.json import Json
 from app.published.computation import computed_table
-from app.published.reference import Reference
+from app.published.reference import open_reference
+from app.published.reference_folder import PublishedFolder
 from app.published.rows import table_entries, table_view
 from app.scripting.html import table as html_table
 from app.scripting.progress import progress_bar
@@ -105,9 +106,10 @@ def published(table: str, *, reference: str | Path | None = None, compute: bool 
         array([1.7, 1.6, 2. ])
     """
     found = published_table(table)
-    data = None if reference is None else Reference(Path(reference))
+    data = None if reference is None else open_reference(reference)
     if not compute:
         entries = table_entries(found, data)
-        return Published({"name": found.name, **table_view(found, data, entries, {})})
+        view = table_view(found, PublishedFolder(reference=data), entries, {})
+        return Published({"name": found.name, **view})
     with progress_bar(found.name) as tell:
         return Published(computed_table(found, data, {}, tell))

@@ -5,6 +5,7 @@ from dataclasses import replace
 from core.gait.gait import Gait, drawn_timeline, heading_step
 from core.library.library import SAMPLE_TIME, library, manual_entry
 from core.published.tables import PublishedRow, PublishedTable, RowGait
+from core.segments.segment_table import SegmentTable
 
 _TITLES = {"walk": "Walk", "amble": "Amble", "s-gait": "S-Gait", "c-gait": "C-Gait"}
 """Names of the gaits as the thesis prints them."""
@@ -22,24 +23,23 @@ def published_gait(table: PublishedTable, row: PublishedRow) -> Gait:
         table: the row's.
         row: the row.
     """
-    gait = _manual(row.gait) if row.gait.version is not None else _optimised(row.gait)
+    of = row.gait
+    base = library()[of.family].gait if of.version is None else manual_entry(of.family, of.version).gait
+    segments = base.segment_table
+    gait = _optimised(of, base) if segments is None else _by_hand(of, base, segments)
     return replace(gait, name=f"{row_title(row)} ({table.name})", notes=f"The gait of {table.source}.")
 
 
-def _optimised(of: RowGait) -> Gait:
-    gait = library()[of.family].gait
+def _optimised(of: RowGait, gait: Gait) -> Gait:
     order = gait.order if of.order is None else feet_of_roles(gait, of.order)
     step = heading_step(gait.orientation, of.step)
     changed = replace(gait, order=order, step=step, direction=of.direction, iterations=of.iterations)
     return replace(changed, timeline=drawn_timeline(changed))
 
 
-def _manual(of: RowGait) -> Gait:
-    gait = manual_entry(of.family, of.version or 0).gait
-    assert gait.segment_table is not None
-    implied = gait.segment_table.repeated(of.iterations).turned(of.direction - 1)
+def _by_hand(of: RowGait, gait: Gait, segments: SegmentTable) -> Gait:
+    timeline = segments.repeated(of.iterations).turned(of.direction - 1).timeline(SAMPLE_TIME)
     step = heading_step(gait.orientation, of.step)
-    timeline = implied.timeline(SAMPLE_TIME)
     return replace(gait, step=step, direction=of.direction, iterations=of.iterations, timeline=timeline)
 
 

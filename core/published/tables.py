@@ -13,7 +13,7 @@ from core.errors import NotFoundError
 
 
 class Kind(StrEnum):
-    """How a table defines its figures."""
+    """The definition of a table's figures."""
 
     STANDING = "standing"
     """Mean distance of the first three feet from those of a robot that stands still (T Table 4.1)."""
@@ -97,7 +97,7 @@ class PublishedTable:
         name: such as `T 4.2`.
         title: what it is of.
         source: where it stands.
-        kind: how it defines its figures.
+        kind: the definition of its figures.
         rows: in the order of the source.
     """
 

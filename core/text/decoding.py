@@ -18,6 +18,24 @@ _KINDS = (
 """How files begin that are no text in UTF-8, what they are, and the way out."""
 
 
+def require_size(size: int, name: str, most: int = MOST_BYTES) -> None:
+    """A file is not too large.
+
+    Args:
+        size: bytes that it has.
+        name: of the file, for messages.
+        most: bytes that it may have.
+
+    Raises:
+        InputError: it has more.
+    """
+    if size > most:
+        raise InputError(
+            f"{name} has {size / 1e6:.1f} MB; at most {most / 1e6:g} MB are read. Cut it into several files.",
+            name,
+        )
+
+
 def text_of(content: bytes, name: str, most: int = MOST_BYTES) -> str:
     """The text of a file; a mark of byte order at its beginning stays.
 
@@ -29,12 +47,7 @@ def text_of(content: bytes, name: str, most: int = MOST_BYTES) -> str:
     Raises:
         InputError: it is too large, in another encoding than UTF-8, or no text.
     """
-    if len(content) > most:
-        raise InputError(
-            f"{name} has {len(content) / 1e6:.1f} MB; at most {most / 1e6:g} MB are read. Cut it into "
-            "several files.",
-            name,
-        )
+    require_size(len(content), name, most)
     for begin, kind, way_out in _KINDS:
         if content.startswith(begin):
             raise InputError(f"{name} is not text in UTF-8: {kind}. {way_out}.", name)

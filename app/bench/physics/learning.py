@@ -9,7 +9,7 @@ from app.export.trajectory_files import read_text
 from app.learning.published_trials import walks_of_table
 from app.learning.runner import WalkRunner
 from app.learning.views import learned_content
-from app.published.reference import Reference
+from app.published.reference import open_reference
 from app.trials.figures import ROBOT
 from core.errors import InputError
 from core.identification.learning import POINTS, learn
@@ -38,7 +38,7 @@ def bench_learning(reference: Path | None = None, points: int = POINTS) -> list[
             "Learning needs the published trials; name their folder after --reference.",
             "--reference",
         )
-    model, data = load_robot(ROBOT), Reference(reference)
+    model, data = load_robot(ROBOT), open_reference(reference)
     table = data.folder / "robot_trials" / "trajectory_averages.csv"
     folder = data.folder / "trajectories" / "direction1"
     trajectories = {path.name: read_text(path) for path in sorted(folder.glob("*.csv"))}

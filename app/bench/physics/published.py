@@ -6,7 +6,7 @@ from pathlib import Path
 from app.bench.common.measure import Row
 from app.common.json import Json
 from app.published.computation import computed_table
-from app.published.reference import Reference
+from app.published.reference import open_reference
 from core.published.tables import published_table, published_tables
 
 
@@ -21,7 +21,7 @@ def bench_published(reference: Path | None = None, tables: Sequence[str] = ()) -
         InputError: the data is not in the folder.
         NotFoundError: there is no such table.
     """
-    data = None if reference is None else Reference(reference)
+    data = None if reference is None else open_reference(reference)
     kept: dict[str, Json] = {}
     wanted = [published_table(table) for table in tables or published_tables()]
     return [row for table in wanted for row in _rows(computed_table(table, data, kept))]

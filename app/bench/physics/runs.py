@@ -1,19 +1,19 @@
 """Every simulated walk of the physics benchmark, run once and kept as far as tables and plots need it."""
 
 import math
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from app.bench.physics.cases import manual_problem, solved_cases, tipping
 from app.published.problems import own_problem, published_problem
-from app.published.reference import PublishedRun, Reference
+from app.published.reference import PublishedRun, Reference, is_missing
 from app.published.walked import Walked, walked_motion
 from core.motion.trajectory import Trajectory
 from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.problem import SimulationProblem
 from core.published.tables import PublishedRow, published_table
 from core.robot.kinematics import UnreachableError
+from core.robot.model import RobotModel
 from solver_jobs import simulate
 
 LARGEST_TIPPED = 0.0201
@@ -22,9 +22,7 @@ LARGEST_TIPPED = 0.0201
 
 def walked(problem: SimulationProblem) -> Walked:
     """Simulates one walk in this process."""
-    begin = time.process_time()
-    motion = simulate(problem)
-    return walked_motion(problem, motion, time.process_time() - begin)
+    return walked_motion(problem, simulate(problem))
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +83,7 @@ def optimised_cases(reference: Reference | None) -> Iterator[OptimisedCase]:
         theirs, again, cut = None, None, None
         if reference is not None:
             problem, cut = published_problem(reference, gait, step, published)
-            theirs, again = reference.optimised_run(gait, step, problem.model), walked(problem)
+            theirs, again = reference.run(gait, step, None, problem.model), walked(problem)
         own, own_scales = (walked(own_problem(motion, physics)) for physics in (published, scales))
         yield OptimisedCase(gait, step, thesis, theirs, again, cut, margin, motion, own, own_scales)
 
@@ -95,8 +93,14 @@ def manual_cases(reference: Reference | None) -> Iterator[ManualCase]:
     for row in published_table("t4-1").rows:
         family, version, thesis = row.gait.family, row.gait.version or 0, printed(row, "feet_mm")
         own = walked(manual_problem(family, version, physics_set("published")))
-        theirs = None if reference is None else reference.manual_run(family, version, own.problem.model)
+        theirs = None if reference is None else _manual_run(reference, row, own.problem.model)
         yield ManualCase(family, version, thesis, theirs, own)
+
+
+def _manual_run(reference: Reference, row: PublishedRow, model: RobotModel) -> PublishedRun | None:
+    """The published run of a gait made by hand; None where it is not in the folder."""
+    case = (row.gait.family, row.gait.step, row.gait.version)
+    return None if any(map(is_missing, reference.run_paths(*case))) else reference.run(*case, model)
 
 
 def printed(row: PublishedRow, figure: str) -> float:

@@ -17,7 +17,7 @@ from app.bench.physics.runs import (
     tipped,
     walked,
 )
-from app.published.reference import PublishedRun, Reference
+from app.published.reference import PublishedRun, open_reference
 from app.published.walked import Walked
 from app.store.named_file import write_named
 from core.errors import InputError
@@ -46,7 +46,7 @@ def bench_physics(reference: Path | None = None, page: Path | None = None) -> li
     Raises:
         InputError: the data is not in the folder, or the page has nowhere to go.
     """
-    data = None if reference is None else Reference(reference)
+    data = None if reference is None else open_reference(reference)
     if page is not None:
         require_page(page)
     optimised = list(optimised_cases(data))
@@ -185,8 +185,10 @@ def _bar(what: str, bar: str, count: int, of: int) -> Row:
 def _speed(walk: Walked) -> list[Row]:
     """Computing time of one walk, and of its variations, in seconds of processor time."""
     what = f"walk of {walk.problem.waypoints.count} knots, {walk.robot_seconds:.0f} s on the robot, one core"
+    begin = time.process_time()
     alone = walked(walk.problem)
-    realtime = alone.robot_seconds / alone.processor_seconds
+    seconds = time.process_time() - begin
+    realtime = alone.robot_seconds / seconds
     begin = time.process_time()
     varied = simulate_variations(walk.problem, count=VARIATIONS)
     whole = (time.process_time() - begin) / CORES
@@ -195,8 +197,8 @@ def _speed(walk: Walked) -> list[Row]:
         _limit(
             what,
             f"≤ {MOST_WALK_SECONDS:.0f} s",
-            f"{alone.processor_seconds:.2f} s",
-            alone.processor_seconds <= MOST_WALK_SECONDS,
+            f"{seconds:.2f} s",
+            seconds <= MOST_WALK_SECONDS,
         ),
         _limit(
             "the same", f"≥ {LEAST_REALTIME:.0f} × real time", f"{realtime:.0f}", realtime >= LEAST_REALTIME

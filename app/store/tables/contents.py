@@ -293,12 +293,22 @@ PHYSICS_SET = Fields(
     }
 )
 
+_BODY_WAY, _FEET_WAY = Numbers(2, (2,)), Numbers(3, (4, 2))
 PUBLISHED = Fields(
     {
-        "figures": Mapped(Mapped(Mapped(Maybe(NUMBER)))),
+        "figures": Mapped(Mapped(Maybe(NUMBER))),
         "sentence": text,
         "is_refused": truth,
-        "ways": Mapped(OBJECT),
+        "ways": Maybe(
+            Fields(
+                {
+                    "planned_body": _BODY_WAY,
+                    "planned_feet": _FEET_WAY,
+                    "body": _BODY_WAY,
+                    "feet": _FEET_WAY,
+                }
+            )
+        ),
     }
 )
-"""Figures of a published gait by whose they are, by definition and name, and ways for the plot."""
+"""Figures of a published gait by definition and name, and ways for the plot: (n, 2) and (n, legs, 2) m."""

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from core.arrays import FARTHEST
 from core.text.documents import json_content
 
 LAST_MOMENT = 253_402_300_799.0
@@ -155,9 +156,12 @@ class Numbers:
 
     Args:
         depth: how many levels of lists.
+        ending: lengths of the innermost lists, of which there is at least one and whose numbers are at most
+            `FARTHEST`; empty for any.
     """
 
     depth: int
+    ending: tuple[int, ...] = ()
 
     def __call__(self, value: Any, place: str) -> list[Any]:
         """The lists."""
@@ -171,6 +175,11 @@ class Numbers:
             raise ShapeError(place, "has other values than numbers")
         if not np.isfinite(array.astype(np.float64)).all():
             raise ShapeError(place, "has numbers that are not finite")
+        if self.ending:
+            if not value or array.shape[-len(self.ending) :] != self.ending:
+                raise ShapeError(place, f"has no lists of {' times '.join(map(str, self.ending))} numbers")
+            if np.abs(array).max() > FARTHEST:
+                raise ShapeError(place, f"has numbers beyond {FARTHEST:g}")
         return value
 
 

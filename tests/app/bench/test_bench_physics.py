@@ -43,7 +43,7 @@ def manual_case() -> ManualCase:
 def optimised_case(thesis: float) -> OptimisedCase:
     run, plan = walked(problem()), problem().plan
     wanted = plan.body_world, plan.feet_world
-    theirs = PublishedRun(plan.body_world + [0.0, 0.0, 0.004], plan.feet_world, *wanted, ())
+    theirs = PublishedRun(plan.body_world + [0.0, 0.0, 0.004], plan.feet_world, *wanted)
     return OptimisedCase("walk", 0.010, thesis, theirs, run, 0.003, 0.003, plan, run, run)
 
 

@@ -14,6 +14,9 @@ import pytest
 
 from app.common.json import Json
 from app.published import service as service_module
+from app.published.entries import entries_of
+from app.published.figures import figures_content
+from app.published.opening import Source
 from app.published.reference_folder import ReferenceFolder
 from app.published.service import PublishedService
 from app.store.database import Database
@@ -256,3 +259,100 @@ def test_published_runs_and_motions_stand_beside_ours(
     assert row["cells"]["recorded.feet_mm"] == BEHIND * 1000
     assert row["opens"] == ["ours", "published"]
     assert studio.service.plot("t4-2", "walk-10").count("published") >= 2
+
+
+def empty_data(folder: Path) -> Path:
+    """A folder of the published data without any file."""
+    for name in ("simulation_manual", "simulation_optimised", "trajectories/direction1"):
+        (folder / name).mkdir(parents=True)
+    return folder
+
+
+def test_a_damaged_file_costs_its_own_columns_and_another_folder_forgets_it(
+    opened: Callable[..., Opened], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    shortened("t4-2", 1, monkeypatch)
+    studio, data = opened(), empty_data(tmp_path / "data")
+    path = data / "trajectories/direction1/walk_a.csv"
+    path.write_bytes(b"\x80")
+    studio.service.name_folder(str(data))
+    studio.service.compute("t4-2")
+    view = studio.finish("t4-2")
+    (row,) = view["rows"]
+    assert (view["state"], row["state"], row["cells"]["ours.feet_mm"]) == ("failed", "failed", BEHIND * 1000)
+    assert "run is not in this folder" in row["sentence"]
+    assert "walk_a.csv is not text in UTF-8" in row["sentence"]
+    assert studio.service.overview()["reference"]["sentence"] == ""
+
+    studio.service.name_folder(str(empty_data(tmp_path / "other")))
+    (row,) = studio.service.view("t4-2")["rows"]
+    assert (row["state"], "walk_a" in row["sentence"]) == ("none", False)
+    with pytest.raises(NotFoundError, match="It is not in"):
+        studio.service.gait("t4-2", row["id"], Source.PUBLISHED)
+
+
+def test_a_new_folder_ends_what_is_computed_of_the_old_one(
+    opened: Callable[..., Opened], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    shortened("t4-1", 1, monkeypatch)
+    begun, go_on = threading.Event(), threading.Event()
+
+    def waits(problem: SimulationProblem) -> SimulatedMotion:
+        begun.set()
+        assert go_on.wait(SECONDS)
+        return followed(problem)
+
+    studio = opened(waits)
+    studio.service.compute("t4-1")
+    assert begun.wait(SECONDS)
+    studio.service.name_folder(str(empty_data(tmp_path / "data")))
+    assert studio.service.line("t4-1")["state"] == "none"
+    assert studio.service.compute("t4-1")["state"] == "running"
+    go_on.set()
+    (row,) = studio.finish("t4-1")["rows"]
+    assert row["state"] == "done"
+    assert studio.physics.asked == 2
+
+
+def test_a_folder_that_vanishes_is_named(opened: Callable[..., Opened], tmp_path: Path) -> None:
+    service, data = opened().service, empty_data(tmp_path / "data")
+    service.name_folder(str(data))
+    data.rename(tmp_path / "elsewhere")
+    assert f"There is no folder {data}" in " ".join(service.view("t4-2")["about"])
+    with pytest.raises(NotFoundError, match=f"There is no folder {data}"):
+        service.gait("t4-2", "walk-10", Source.PUBLISHED)
+
+
+@pytest.mark.parametrize("folder", ["/" + "a" * 300, "~nosuchuser/x", "\udcff", "a\0b", 5, None])
+def test_a_memory_of_no_folder_is_told(opened: Callable[..., Opened], tmp_path: Path, folder: object) -> None:
+    (tmp_path / "reference.json").write_text(json.dumps({"folder": folder}))
+    assert opened().service.overview()["reference"]["sentence"]
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"figures": {"ours": {"standing": {}}}},
+        {"figures": {}},
+        {"figures": {"standing": {"lean_deg": None}}},
+        {"figures": {"standing": {"feet_mm": "2"}}},
+        {"ways": {}},
+        {"ways": {"body": [[0, 0]], "planned_body": [[0, 0]], "feet": [], "planned_feet": []}},
+        {"ways": [1]},
+        {"sentence": None},
+        {"is_refused": 0},
+    ],
+)
+def test_a_damaged_row_of_the_store_is_computed_again_or_shown(
+    opened: Callable[..., Opened], database: Database, one_row: PublishedTable, damage: Json
+) -> None:
+    (entry,) = entries_of(one_row, one_row.rows[0], None)
+    feet = [[[0.0, 0.0]] * 4]
+    ways = {"body": [[0.0, 0.0]], "planned_body": [[0.0, 0.0]], "feet": feet, "planned_feet": feet}
+    whole = figures_content({"standing": {"feet_mm": 2.0, "lean_deg": 1.0}}, "", ways)
+    PublishedStore(database).put(entry.key, 0.0, whole | damage)
+    service = opened().service
+    (row,) = service.view("t4-1")["rows"]
+    assert row["state"] in ("none", "done")
+    if row["has_plot"]:
+        assert "<svg" in service.plot("t4-1", row["id"])

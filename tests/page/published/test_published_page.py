@@ -8,7 +8,6 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from app.published.columns import Who
 from app.published.entries import entries_of
 from app.published.figures import figures_content
 from app.store.database import Database
@@ -35,7 +34,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
     for row in table.rows:
         if row.id != MISSING:
             (own,) = entries_of(table, row, None)
-            store.put(own.key, 0.0, figures_content({Who.OURS: definitions}, FELL if row.id == FALLS else ""))
+            store.put(own.key, 0.0, figures_content(definitions, FELL if row.id == FALLS else ""))
     database.close()
     with running_studio(data) as running:
         yield running

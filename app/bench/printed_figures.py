@@ -113,7 +113,7 @@ def agrees(text: str, value: Any, is_near: bool = False) -> bool:
         value: of a command's JSON.
         is_near: whether a tenth more or less is the same.
     """
-    if value is None:
+    if value is None or value == "":
         return text == "–"
     if isinstance(value, bool):
         return text == ("yes" if value else "no")

@@ -184,6 +184,7 @@ def test_a_value_of_another_kind_differs(rule: str, content: Json, printed: str)
         ("3.00 (8)", 3.0, False),
         ("7", True, False),
         ("–", None, True),
+        ("–", "", True),
         ("0.1", None, False),
         ("shoe distance", "shoe distance", True),
         ("shoe distance", "workspace", False),

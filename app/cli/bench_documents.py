@@ -11,7 +11,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import footfall
-from app.bench.quoted_figures import FOLDER, Difference, Kind, Quotation, differences, quotations
+from app.bench.printed_figures import Difference, differences, lost_figures
+from app.bench.quoted_figures import FOLDER, Kind, Quotation, Uncompared, read_documents
 from app.cli.common.output import NOT_FIT, note, show
 from app.common.json import Json
 from app.common.own_command import own_command
@@ -37,12 +38,13 @@ def run_documents(options: Namespace) -> int:
     """
     if options.reference is not None:
         open_reference(options.reference)
-    found = quotations(ROOT)
+    documents = read_documents(ROOT)
+    found = [quotation for document in documents for quotation in document.quotations]
     chosen = [quotation for quotation in found if _is_run(quotation, options.names, options.reference)]
     for name in options.names:
         if not any(name in quotation.benchmarks for quotation in chosen):
             raise InputError(f"No figure of {name} can be compared{_why(found, name)}.", "NAME")
-    differing: list[Difference] = []
+    differing = [lost for quotation in found for lost in lost_figures(quotation)]
     printed: dict[str, Json] = {}
     for quotation in chosen:
         if quotation.command not in printed:
@@ -50,7 +52,16 @@ def run_documents(options: Namespace) -> int:
             printed[quotation.command] = content_of(quotation.command, options.reference)
         differing += differences(quotation, printed[quotation.command])
     left = [quotation for quotation in found if quotation not in chosen]
-    show(options, _content(chosen, differing, left), _lines(chosen, differing, left))
+    uncompared = [one for document in documents for one in document.uncompared]
+    content: Json = {
+        "compared": _figures(chosen),
+        "differ": [asdict(one) for one in differing],
+        "not_compared": [asdict(one) for one in uncompared],
+        "not_run": [
+            {"file": one.file, "line": one.line, "command": one.command, "why": _why_not(one)} for one in left
+        ],
+    }
+    show(options, content, _lines(chosen, differing, left, uncompared))
     return NOT_FIT if differing else 0
 
 
@@ -86,21 +97,11 @@ def content_of(command: str, reference: Path | None) -> Json:
                 own_command(*words[1:]), cwd=folder, env=environment, capture_output=True, check=False
             )
             try:
-                content = json.loads(done.stdout)
-            except ValueError:
+                content = {**json.loads(done.stdout)}
+            except (ValueError, TypeError):
                 last = done.stderr.decode(errors="replace").strip().rpartition("\n")[2]
                 content = {"error": f"status {done.returncode}, {last or 'no JSON'}"}
     return content
-
-
-def _content(chosen: Sequence[Quotation], differing: Sequence[Difference], left: Sequence[Quotation]) -> Json:
-    return {
-        "compared": _figures(chosen),
-        "differ": [asdict(one) for one in differing],
-        "not_run": [
-            {"file": one.file, "line": one.line, "command": one.command, "why": _why_not(one)} for one in left
-        ],
-    }
 
 
 def _why_not(quotation: Quotation) -> str:
@@ -110,11 +111,14 @@ def _why_not(quotation: Quotation) -> str:
 
 
 def _figures(quotations: Sequence[Quotation]) -> int:
-    return sum(len(figure.cells) for quotation in quotations for figure in quotation.figures)
+    return sum(len(figure.places) for quotation in quotations for figure in quotation.figures)
 
 
 def _lines(
-    chosen: Sequence[Quotation], differing: Sequence[Difference], left: Sequence[Quotation]
+    chosen: Sequence[Quotation],
+    differing: Sequence[Difference],
+    left: Sequence[Quotation],
+    uncompared: Sequence[Uncompared],
 ) -> list[str]:
     lines = [f"{one.file}:{one.line}: “{one.figure}”, now {one.printed}: {one.command}" for one in differing]
     commands = len({quotation.command for quotation in chosen})
@@ -122,4 +126,7 @@ def _lines(
     if left:
         lines += ["", "Not run, since it is slow, its figures depend on the machine, or it was not named:"]
         lines += [f"  {one.file}:{one.line}: {_why_not(one)}: {one.command}" for one in left]
+    if uncompared:
+        lines += ["", "Numbers beside compared figures that are not compared themselves:"]
+        lines += [f"  {one.file}:{one.line}: {' '.join(one.numbers)}" for one in uncompared]
     return lines

@@ -13,6 +13,8 @@ LONGEST, SHORTEST_INTERVAL = 1e6, 1e-6
 """A motion's last time is no later, and its samples are no nearer to each other, s."""
 FASTEST = FARTHEST / SHORTEST_INTERVAL
 """Speeds beyond this are none between two samples, m/s."""
+STRONGEST = 1e10
+"""Contact forces are below this, N: a search that finds no motion ends at one with forces of no robot."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,13 +62,14 @@ class Trajectory:
             "feet_velocity": (n, legs, 3),
             "contact_forces": (n, legs, 3),
         }
+        mosts = {"body_velocity": FASTEST, "feet_velocity": FASTEST, "contact_forces": STRONGEST}
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "feet_world", feet)
         object.__setattr__(self, "contact", frozen_bools(self.contact, (n, legs), "contact"))
         for name, shape in shapes.items():
             values = getattr(self, name)
             if values is not None:
-                most = FASTEST if "velocity" in name else FARTHEST
+                most = mosts.get(name, FARTHEST)
                 object.__setattr__(self, name, frozen_floats(values, shape, name, most))
 
     @property

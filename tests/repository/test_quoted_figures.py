@@ -6,12 +6,13 @@ import shlex
 
 import pytest
 
-from app.bench.quoted_figures import Kind, Quotation, quotations
+from app.bench.printed_figures import lost_figures
+from app.bench.quoted_figures import Kind, Quotation, read_documents
 from app.cli.parser import make_parser
 from tests.support.command import run_json
 from tests.support.studio_process import PROJECT
 
-FOUND = quotations(PROJECT)
+FOUND = [quotation for document in read_documents(PROJECT) for quotation in document.quotations]
 
 
 def commands(quotation: Quotation) -> list[list[str]]:
@@ -24,6 +25,10 @@ def test_documents_name_their_commands() -> None:
     assert len(FOUND) > 20
     assert {quotation.kind for quotation in FOUND} == set(Kind)
     assert {"README.md", "docs/figures.md", "docs/physics.md"} <= {quotation.file for quotation in FOUND}
+
+
+def test_documents_have_the_figures_that_their_comments_name() -> None:
+    assert [one for quotation in FOUND for one in lost_figures(quotation)] == []
 
 
 def test_every_command_beside_a_figure_is_one_that_the_program_takes(

@@ -65,6 +65,18 @@ def test_what_differs_is_named_with_status_4(capsys: pytest.CaptureFixture[str])
 
 
 @pytest.mark.usefixtures("documents")
+def test_numbers_without_a_rule_and_figures_that_are_gone_are_named(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "README.md").write_text(README.replace("10 mm", "15 mm"))
+    (tmp_path / "docs" / "figures.md").write_text(FIGURES.replace("0.17 mm off", "0.18 mm off"))
+    status, text, _ = run(capsys, "bench", "--docs")
+    assert status == 4
+    assert "docs/figures.md:3: “0.17 mm”, now not in the text above: footfall bench physics --json" in text
+    assert "  README.md:1: 15\n  docs/figures.md:1: 0.18" in text
+
+
+@pytest.mark.usefixtures("documents")
 def test_a_named_benchmark_is_run_however_long_it_takes(capsys: pytest.CaptureFixture[str]) -> None:
     status, content = run_json(capsys, "bench", "physics", "--docs")
     assert (status, content["compared"], content["differ"]) == (0, 1, [])
@@ -129,3 +141,5 @@ def test_commands_run_in_one_empty_folder_and_the_last_one_is_read(
 def test_a_command_that_prints_no_json_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
     replace_commands(monkeypatch, "import sys; sys.exit('No such gait.')")
     assert content_of("footfall gaits --json", None) == {"error": "status 1, No such gait."}
+    replace_commands(monkeypatch, "print(5)")
+    assert content_of("footfall gaits --json", None) == {"error": "status 0, no JSON"}

@@ -1,9 +1,12 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from core.arrays import Floats
+from core.errors import InputError
 from core.motion.speeds import foot_speeds, motor_speeds
 from core.motion.trajectory import Trajectory
 from core.robot.kinematics import feet_in_modules
@@ -59,3 +62,15 @@ def test_without_velocities_a_speed_is_that_of_the_move_to_the_sample() -> None:
 def test_a_motor_whose_rod_is_too_short_has_no_speed() -> None:
     trajectory = steady(2000.0, step=0.1, known=False)
     assert np.isnan(motor_speeds(ROBOT, trajectory)[-1]).any()
+
+
+def test_a_search_that_finds_no_motion_may_end_with_forces_of_no_robot() -> None:
+    still = np.zeros((2, 3))
+    feet = np.zeros((2, 4, 3))
+    forces = np.full((2, 4, 3), 79_303.0)
+    motion = Trajectory(
+        np.array([0.0, 0.4]), still, np.zeros(2), feet, np.ones((2, 4), bool), contact_forces=forces
+    )
+    assert motion.contact_forces is not None
+    with pytest.raises(InputError, match="contact_forces holds 1e\\+300"):
+        replace(motion, contact_forces=np.full((2, 4, 3), 1e300))

@@ -15,7 +15,7 @@ from app.bench.quoted_figures import FOLDER, Difference, Kind, Quotation, differ
 from app.cli.common.output import NOT_FIT, note, show
 from app.common.json import Json
 from app.common.own_command import own_command
-from app.published.reference import open_reference
+from app.published.reference import find_folder
 from core.errors import InputError
 
 ROOT = Path(footfall.__file__).resolve().parent
@@ -36,7 +36,7 @@ def run_documents(options: Namespace) -> int:
             folder of published data is not there.
     """
     if options.reference is not None:
-        open_reference(options.reference)
+        find_folder(options.reference)
     found = quotations(ROOT)
     chosen = [quotation for quotation in found if _is_run(quotation, options.names, options.reference)]
     for name in options.names:

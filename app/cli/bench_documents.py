@@ -16,7 +16,7 @@ from app.bench.quoted_figures import FOLDER, Kind, Quotation, Uncompared, read_d
 from app.cli.common.output import NOT_FIT, note, show
 from app.common.json import Json
 from app.common.own_command import own_command
-from app.published.reference import open_reference
+from app.published.reference import find_folder
 from core.errors import InputError
 
 ROOT = Path(footfall.__file__).resolve().parent
@@ -37,7 +37,7 @@ def run_documents(options: Namespace) -> int:
             folder of published data is not there.
     """
     if options.reference is not None:
-        open_reference(options.reference)
+        find_folder(options.reference)
     documents = read_documents(ROOT)
     found = [quotation for document in documents for quotation in document.quotations]
     chosen = [quotation for quotation in found if _is_run(quotation, options.names, options.reference)]

@@ -80,15 +80,13 @@ class Reference:
         folder: holds `simulation_manual`, `simulation_optimised` and `trajectories`.
 
     Raises:
-        InputError: it is not there, cannot be read, or does not hold them.
+        InputError: it cannot be read, or does not hold them.
     """
 
     folder: Path
 
     def __post_init__(self) -> None:
         try:
-            if not self.folder.is_dir():
-                raise InputError(f"There is no folder {self.folder}. Correct its name.", "reference")
             missing = [name for name in _FOLDERS if not (self.folder / name).is_dir()]
         except (OSError, ValueError) as error:
             raise _unreadable(self.folder, error) from error
@@ -154,17 +152,29 @@ class Reference:
 
 
 def open_reference(folder: str | Path) -> Reference:
-    """The published data in a folder that a person names; `~` is the home folder.
+    """The published data in a folder that a person names (see `find_folder`).
 
     Raises:
         InputError: the folder is not there, cannot be read, or lacks the data.
     """
+    return Reference(find_folder(folder))
+
+
+def find_folder(folder: str | Path) -> Path:
+    """The whole path of a folder that a person names; `~` is the home folder.
+
+    Raises:
+        InputError: the folder is not there, or cannot be read.
+    """
     try:
         path = Path(folder).expanduser().absolute()
         str(path).encode()
+        is_there = path.is_dir()
     except (OSError, RuntimeError, ValueError) as error:
         raise _unreadable(folder, error) from error
-    return Reference(path)
+    if not is_there:
+        raise InputError(f"There is no folder {path}. Correct its name.", "reference")
+    return path
 
 
 def is_missing(path: Path) -> bool:
@@ -193,7 +203,8 @@ def _unreadable(folder: str | Path, error: Exception) -> InputError:
     if isinstance(error, OSError):
         reason = error.strerror or reason
     return InputError(
-        f"The folder {name} cannot be read: {reason}. Correct its name or its rights.", "reference"
+        f"The folder {name} cannot be read: {reason.rstrip('.')}. Correct its name or its rights.",
+        "reference",
     )
 
 

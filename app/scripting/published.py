@@ -93,7 +93,7 @@ def published(table: str, *, reference: str | Path | None = None, compute: bool 
         compute: false for what is printed alone.
 
     Returns:
-        The table; `table["ours.feet_mm"]` is a column as an array.
+        The table; `table["ours.feet_mm"]` is a column as an array, in the unit of its name (mm, cm, °, s).
 
     Raises:
         NotFoundError: there is no such table.

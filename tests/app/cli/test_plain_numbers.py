@@ -85,7 +85,9 @@ def test_a_track_in_another_form_has_the_same_figures_and_says_so(
     path.write_text(change(TRACK), newline="")
     status, out, errors = run(capsys, "trial", str(path), "--expect", "3", "--json")
     assert (status, json.loads(out)) == plain
-    assert errors == f"{path}: {sentence}\n"
+    form_note, rate_note = errors.splitlines()
+    assert form_note == f"{path}: {sentence}"
+    assert "13 frames a second" in rate_note
 
 
 def command_on(path: Path) -> tuple[str, ...]:

@@ -77,7 +77,8 @@ def test_times_of_an_earlier_database_are_found_anew(tmp_path: Path) -> None:
         connection.execute("ALTER TABLE open_gait DROP COLUMN revoked")
         connection.execute("ALTER TABLE history DROP COLUMN edit")
         connection.execute("DROP TABLE set_aside")
-        connection.execute(f"PRAGMA user_version = {NEWEST - 4}")
+        connection.execute("DROP TABLE published")
+        connection.execute(f"PRAGMA user_version = {NEWEST - 5}")
     connection.close()
     assert read_times(tmp_path) == {}
     database = Database(path)
